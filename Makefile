@@ -1,0 +1,106 @@
+# make            build/whit, build/libwhit.a
+# make demo       install what is missing, build, render a picture
+# make check      install what the tests need, build, run every test (SAN=1: under ASan and UBSan)
+# make layers     does every file include only rooms further up?
+# Other targets stand below, each with a line of its own.
+
+BUILD   ?= build
+CC      ?= gcc
+WARN    := -Wall -Wextra -Wshadow -Wconversion
+OPT     ?= -O2
+CFLAGS  ?= $(OPT) -g
+STD     := -std=c17 -D_GNU_SOURCE -ffp-contract=off -fno-math-errno -Isrc -Iinclude
+LIBS    := -lm -pthread
+SAN     ?= 0
+ifeq ($(SAN),1)
+  BUILD := $(BUILD)/san
+  CFLAGS += -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
+  LDFLAGS += -fsanitize=address,undefined
+endif
+
+# Optional libraries: found by pkg-config, or by a header where there is no .pc file. The build works without them, and
+# the program says what is missing when a scene asks for it.
+have = $(shell pkg-config --exists $(1) 2>/dev/null && echo 1)
+has_header = $(shell echo '\#include <stdio.h>\n\#include <$(1)>' | $(CC) -E - >/dev/null 2>&1 && echo 1)
+define optional
+ifeq ($$(call have,$(2)),1)
+  FEATURES += -DHAVE_$(1) $$(shell pkg-config --cflags $(2))
+  LIBS += $$(shell pkg-config --libs $(2))
+endif
+endef
+$(eval $(call optional,PNG,libpng))
+$(eval $(call optional,JPEG,libjpeg))
+$(eval $(call optional,TIFF,libtiff-4))
+$(eval $(call optional,FREETYPE,freetype2))
+$(eval $(call optional,FONTCONFIG,fontconfig))
+ifeq ($(call has_header,gif_lib.h),1)
+  FEATURES += -DHAVE_GIF
+  LIBS += -lgif
+endif
+
+# *_kernel.c is built once per instruction set, each object exporting names with the set pasted on (base/cpu.h).
+ARCH    := $(shell $(CC) -dumpmachine | cut -d- -f1)
+ISAS    := base
+ifeq ($(ARCH),x86_64)
+  ISAS += avx2 avx512
+endif
+ISA_base   :=
+ISA_avx2   := -mavx2 -DLANES=16
+ISA_avx512 := -mavx512f -mavx512vl -mavx512dq -mavx512bw -mprefer-vector-width=512 -DLANES=16
+
+KERNEL_SRC := $(sort $(wildcard src/*/*_kernel.c))
+LIB_SRC := $(filter-out $(KERNEL_SRC),$(sort $(wildcard src/*/*.c))) src/registry.c
+LIB_OBJ := $(LIB_SRC:%.c=$(BUILD)/%.o) $(foreach isa,$(ISAS),$(KERNEL_SRC:%.c=$(BUILD)/%.$(isa).o))
+TEST_SRC := $(sort $(wildcard tests/unit/*/test_*.c))
+TEST_BIN := $(TEST_SRC:%.c=$(BUILD)/%)
+TEST_LIB := $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/unit/lib/*.c))
+
+all: $(BUILD)/whit
+
+$(BUILD)/libwhit.a: $(LIB_OBJ)
+	@rm -f $@
+	$(AR) rcs $@ $^
+
+$(BUILD)/whit: $(BUILD)/src/main.o $(BUILD)/libwhit.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
+
+$(BUILD)/src/%.o: src/%.c
+	@mkdir -p $(@D)
+	$(CC) $(STD) $(WARN) $(CFLAGS) $(FEATURES) -MMD -MP -c -o $@ $<
+
+define kernel_rule
+$(BUILD)/src/%_kernel.$(1).o: src/%_kernel.c
+	@mkdir -p $$(@D)
+	$$(CC) $$(STD) $$(WARN) $$(CFLAGS) -O3 $$(ISA_$(1)) -DISA=$(1) -MMD -MP -c -o $$@ $$<
+endef
+$(foreach isa,$(ISAS),$(eval $(call kernel_rule,$(isa))))
+
+# Unit tests: every tests/unit/<room>/test_*.c is a program of its own; tests/unit/lib/ is shared among them.
+$(BUILD)/tests/unit/lib/%.o: tests/unit/lib/%.c
+	@mkdir -p $(@D)
+	$(CC) $(STD) $(WARN) $(CFLAGS) $(FEATURES) -Itests/unit -MMD -MP -c -o $@ $<
+
+$(BUILD)/tests/unit/%: tests/unit/%.c $(TEST_LIB) $(BUILD)/libwhit.a
+	@mkdir -p $(@D)
+	$(CC) $(STD) $(WARN) $(CFLAGS) $(LDFLAGS) $(FEATURES) -Itests/unit -MMD -MP -o $@ $< $(TEST_LIB) $(BUILD)/libwhit.a -lcmocka $(LIBS)
+
+unit: $(BUILD)/whit $(TEST_BIN)
+
+# Everything: unit tests, command line, pictures. Ends with "N passed, N failed".
+check:
+	@tests/packages check
+	+@$(MAKE) --no-print-directory check-only
+
+check-only: layers unit
+	@BUILD=$(BUILD) tests/run $(BUILD) $(TEST_BIN)
+
+layers:
+	@tests/layers
+
+clean:
+	rm -rf $(BUILD)
+
+.PHONY: all unit check check-only layers clean
+.SECONDARY: $(TEST_LIB)
+
+-include $(shell find $(BUILD) -name '*.d' 2>/dev/null)

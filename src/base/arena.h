@@ -1,0 +1,45 @@
+/* arena.h - a bump allocator: things that die together live together.
+ *
+ * Three lifetimes use it: scene (parse to compile), world (compile to end), scratch (a worker's, rewound per pixel).
+ * Nothing is freed singly. Only arena.c and image buffers call malloc. */
+#ifndef BASE_ARENA_H
+#define BASE_ARENA_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct ArenaBlock ArenaBlock;
+
+typedef struct Arena {
+    ArenaBlock *block;                         /* newest block; older ones hang behind it */
+    char *next, *end;                          /* free part of the newest block */
+    size_t used, limit;                        /* bytes handed out; 0 = no limit */
+    void (*out_of_memory)(void *user);         /* must not return (longjmp); NULL prints and exits with 3 */
+    void *user;
+} Arena;
+
+typedef struct ArenaMark {
+    ArenaBlock *block;
+    char *next;
+    size_t used;
+} ArenaMark;
+
+void arena_init(Arena *a);
+void arena_free(Arena *a);
+
+/* Zeroed, aligned to 64 bytes when `bytes` is 64 or more, to 16 otherwise. Never NULL. */
+void *arena_alloc(Arena *a, size_t bytes);
+
+/* A copy of `bytes` bytes at `from`. */
+void *arena_copy(Arena *a, const void *from, size_t bytes);
+
+ArenaMark arena_mark(const Arena *a);
+void arena_rewind(Arena *a, ArenaMark mark);   /* everything allocated since the mark is gone */
+
+#define arena_new(a, T) ((T *)arena_alloc((a), sizeof(T)))
+#define arena_array(a, T, n) ((T *)arena_alloc_array((a), (n), sizeof(T)))
+
+/* n * size, checked for overflow. */
+void *arena_alloc_array(Arena *a, size_t n, size_t size);
+
+#endif

@@ -1,0 +1,46 @@
+/* colour.h - colours: five single-precision numbers, as the scene language has them. */
+#ifndef MATH_COLOUR_H
+#define MATH_COLOUR_H
+
+#include <math.h>
+#include <stdbool.h>
+
+typedef struct Colour { float r, g, b, f, t; } Colour;     /* red, green, blue, filter, transmit */
+typedef struct Rgb { float r, g, b; } Rgb;
+
+static inline Rgb rgb(float r, float g, float b) { return (Rgb){ r, g, b }; }
+static inline Rgb rgb_grey(float v) { return (Rgb){ v, v, v }; }
+static inline Rgb rgb_of(Colour c) { return (Rgb){ c.r, c.g, c.b }; }
+static inline Rgb rgb_add(Rgb a, Rgb b) { return (Rgb){ a.r + b.r, a.g + b.g, a.b + b.b }; }
+static inline Rgb rgb_sub(Rgb a, Rgb b) { return (Rgb){ a.r - b.r, a.g - b.g, a.b - b.b }; }
+static inline Rgb rgb_mul(Rgb a, Rgb b) { return (Rgb){ a.r * b.r, a.g * b.g, a.b * b.b }; }
+static inline Rgb rgb_scaled(Rgb a, float s) { return (Rgb){ a.r * s, a.g * s, a.b * s }; }
+static inline float rgb_greyness(Rgb c) { return 0.297f * c.r + 0.589f * c.g + 0.114f * c.b; }
+static inline float rgb_max(Rgb c) { return fmaxf(c.r, fmaxf(c.g, c.b)); }
+static inline float rgb_max_abs(Rgb c) { return fmaxf(fabsf(c.r), fmaxf(fabsf(c.g), fabsf(c.b))); }
+static inline bool rgb_is_zero(Rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
+
+static inline Colour colour_add(Colour a, Colour b)
+{
+    return (Colour){ a.r + b.r, a.g + b.g, a.b + b.b, a.f + b.f, a.t + b.t };
+}
+
+static inline Colour colour_scaled(Colour a, float s)
+{
+    return (Colour){ a.r * s, a.g * s, a.b * s, a.f * s, a.t * s };
+}
+
+/* a at t = 0, b at t = 1: a + t (b - a), in single precision. */
+static inline Colour colour_lerp(Colour a, Colour b, float t)
+{
+    return (Colour){ a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b), a.f + t * (b.f - a.f),
+                     a.t + t * (b.t - a.t) };
+}
+
+/* What passes through a surface of this colour: c.rgb * filter + transmit (04-shading). */
+static inline Rgb colour_transmittance(Colour c)
+{
+    return (Rgb){ c.r * c.f + c.t, c.g * c.f + c.t, c.b * c.f + c.t };
+}
+
+#endif

@@ -1,0 +1,21 @@
+/* registry.c - THE tables: one row per kind of thing. To add a shape or a pattern, write its file and its row here. */
+#include "registry.h"
+
+#include <stddef.h>
+
+#define SHAPES(ROW)
+
+#define PATTERNS(ROW)
+
+#define DECLARE_SHAPE(name) extern const ShapeOps shape_##name;
+#define DECLARE_PATTERN(name) extern const PatternOps pattern_##name;
+#define COLLECT_SHAPE(name) &shape_##name,
+#define COLLECT_PATTERN(name) &pattern_##name,
+
+SHAPES(DECLARE_SHAPE)
+PATTERNS(DECLARE_PATTERN)
+
+static const ShapeOps *const shapes[] = { SHAPES(COLLECT_SHAPE) NULL };
+static const PatternOps *const patterns[] = { PATTERNS(COLLECT_PATTERN) NULL };
+
+const Registry registry = { shapes, patterns };

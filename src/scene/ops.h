@@ -1,0 +1,78 @@
+/* ops.h - the form of the tables: what a shape and a pattern must be able to do. The rows stand in registry.c. */
+#ifndef SCENE_OPS_H
+#define SCENE_OPS_H
+
+#include "math/bounds.h"
+#include "scene/scene.h"
+
+typedef struct Parser Parser;                  /* sdl/parse.h */
+typedef struct ShapeBuild ShapeBuild;          /* world/build.h */
+typedef struct Ray Ray;                        /* world/ray.h */
+typedef struct Hit Hit;
+typedef struct HitSink HitSink;
+typedef struct Surface Surface;
+
+enum {
+    SHAPE_PATCH = 1,                           /* has no inside (08-shapes 10.2) */
+    SHAPE_HAS_OPEN = 2, SHAPE_HAS_STURM = 4, SHAPE_HAS_HIERARCHY = 8,  /* accepts that modifier; see Object.flags */
+    SHAPE_HAS_UV = 16,                         /* surface fills uv */
+    SHAPE_NO_BOX_IN_CSG = 32                   /* its box does not cut an intersection's (height_field) */
+};
+
+struct ShapeOps {
+    const char *keyword;
+    size_t params_size;
+    unsigned flags;
+    /* After the keyword and '{' (and after no identifier: `sphere { S ... }` is a copy). Stops at the first token that
+     * is not the shape's own. */
+    void (*parse)(Parser *p, void *params);
+    /* Optional. Offered each further item of the block before the common modifiers: reads it if it is the shape's own
+     * (`water_level`, `smooth`, `threshold`...) and says so. */
+    bool (*item)(Parser *p, void *params);
+    /* Optional: called at the closing brace, to check and to finish. */
+    void (*finish)(Parser *p, void *params);
+    void (*compile)(ShapeBuild *b, const void *params);        /* writes prims and their constants into the World */
+    /* Reports every root with t in (ray->t_min, ray->t_max], in any order, by hit_add. t is a function of shape and
+     * ray alone: t_max may skip work, never enter arithmetic. The ray is in the prim's local space, d not of unit length. */
+    void (*hits)(const void *shape, const Ray *ray, HitSink *sink);
+    bool (*inside)(const void *shape, Vec3 p);                 /* NULL: never inside */
+    void (*surface)(const void *shape, const Hit *hit, Surface *out);  /* for the winner only; see Surface */
+    /* The box that min_extent and max_extent report, in the shape's own space (08-shapes 4.1). */
+    Bounds (*extent)(const void *params);
+};
+
+/* Where a pattern is asked. Only `p` is always there. */
+typedef struct PatternPoint {
+    Vec3 p;                                    /* after the chain, turbulence included (marble, wood: excluded) */
+    const Pattern *pattern;                    /* frequency, phase, turbulence record, noise generator */
+    const struct TextureContext *context;      /* pattern/context.h: ray, normals for slope and aoi; NULL without a hit */
+} PatternPoint;
+
+enum {
+    PATTERN_LIST = 1,                          /* takes a list of items (checker, brick...): n_items of them */
+    PATTERN_NO_WAVE = 2,                       /* value is a whole number or an index: wave, frequency, phase do not apply */
+    PATTERN_OWN_TURBULENCE = 4,                /* marble, wood: the turbulence record is used inside the formula */
+    PATTERN_OWN_NORMAL = 8,                    /* bumps, dents...: `bump` perturbs normals directly (07 section 5.2) */
+    PATTERN_NORMAL_ONLY = 16                   /* facets */
+};
+
+struct PatternOps {
+    const char *keyword;
+    size_t params_size;
+    unsigned flags;
+    int n_items;                               /* LIST: how many */
+    const MapEntry *default_map;               /* NULL: black to white */
+    uint32_t n_default_map;
+    Wave default_wave;
+    void (*parse)(Parser *p, void *params);    /* after the keyword: `gradient V`, `spiral1 n`; may be NULL */
+    bool (*item)(Parser *p, void *params);     /* optional: later items of the block, as for shapes (`metric`, `mortar`) */
+    double (*value)(const void *params, const PatternPoint *at);       /* before frequency, phase and wave */
+    Vec3 (*bump)(const void *params, const PatternPoint *at, Vec3 normal, double amount);      /* OWN_NORMAL */
+};
+
+typedef struct Registry {
+    const ShapeOps *const *shape;              /* ended by NULL */
+    const PatternOps *const *pattern;
+} Registry;
+
+#endif

@@ -1,0 +1,37 @@
+/* host.h - reading a scene: what sdl needs from rooms further down, given as values, and its one entry. */
+#ifndef SDL_HOST_H
+#define SDL_HOST_H
+
+#include "scene/ops.h"
+
+/* What parse-time built-ins ask of rooms that sdl may not include. Points are in scene space. */
+typedef struct SdlHost {
+    const Registry *registry;
+    void *user;
+    bool (*trace)(void *user, const Object *o, Vec3 from, Vec3 direction, Vec3 *point, Vec3 *normal);
+    bool (*inside)(void *user, const Object *o, Vec3 p);
+    Bounds (*extent)(void *user, const Object *o);
+    Colour (*pigment)(void *user, const Pigment *pigment, Vec3 p);
+    double (*pattern)(void *user, const Pattern *pattern, Vec3 p);     /* after wave, frequency, phase */
+} SdlHost;
+
+typedef struct SdlDeclare { Str name, value; bool is_string; } SdlDeclare;
+
+typedef struct SdlOptions {
+    int width, height, version;                /* version: of the option, 0 = not given */
+    double clock, initial_clock, final_clock, clock_delta;
+    bool clock_on;
+    int frame_number, initial_frame, final_frame;
+    const SdlDeclare *declare;      uint32_t n_declares;
+    const Str *library_path;        uint32_t n_library_paths;
+    const Str *allow_read;          uint32_t n_allow_read;
+    const Str *allow_write;         uint32_t n_allow_write;
+    bool strict;
+    Str input_name;                            /* value of input_file_name */
+} SdlOptions;
+
+/* Parses `text` of the file `path`. The caller has set the landing of diag (diag_landing); mistakes jump there. */
+void sdl_parse(Arena *scene_arena, Diag *diag, const SdlHost *host, const SdlOptions *options, Str path, Str text,
+               Scene *out);
+
+#endif

@@ -1,0 +1,119 @@
+/* world.h - what a ray needs: flat arrays, only what this scene uses. Written once by compile, then const.
+ *
+ * World space is scene space times `unit`, a power of two that brings the scene near size 1. All lengths in the World
+ * are in world space, except inside textures (see texture.h). */
+#ifndef WORLD_WORLD_H
+#define WORLD_WORLD_H
+
+#include "math/bounds.h"
+#include "scene/ops.h"
+#include "world/ray.h"
+
+/* An acceleration structure over n boxes; it knows nothing of what is in them. */
+typedef bool AccelVisit(void *user, uint32_t item, double *t_max);     /* may lower *t_max; true stops the walk */
+typedef struct AccelOps {
+    const char *name;
+    void *(*build)(Arena *a, const Bounds *boxes, uint32_t n);
+    /* Offers every item whose box the ray may meet within (t_min, *t_max], in any order, possibly twice. */
+    bool (*walk)(const void *accel, const Ray *ray, double *t_max, AccelVisit *visit, void *user);
+    /* Offers every item whose box may contain p. */
+    bool (*around)(const void *accel, Vec3 p, AccelVisit *visit, void *user);
+} AccelOps;
+
+enum {                                         /* Prim.flags */
+    PRIM_NO_SHADOW = 1, PRIM_NO_IMAGE = 2, PRIM_NO_REFLECTION = 4, PRIM_NO_RADIOSITY = 8,
+    PRIM_INVERSE = 16,                         /* normals flip, inside is negated */
+    PRIM_PATCH = 32,                           /* never inside, also inverted */
+    PRIM_HELPER = 64                           /* clip or bound shape: inside tests only, not in the accelerator */
+};
+
+typedef struct Prim {
+    const ShapeOps *ops;
+    const void *data;
+    uint32_t place;                            /* index in places; 0 is the identity */
+    uint32_t material;
+    uint32_t csg;                              /* CsgNode this prim is a child of; 0 = none */
+    uint32_t flags;
+} Prim;
+
+typedef enum CsgOp { CSG_ANY, CSG_ALL } CsgOp;         /* union and merge; intersection and difference */
+enum { CSG_MERGE = 1, CSG_CLIP = 2, CSG_INVERSE = 4, CSG_CUTAWAY = 8, CSG_DIFFERENCE = 16 };
+
+/* A set operation. Its children are items [first, first + n) of csg_child; item = prim index, or ~node. A hit on a child of
+ * an ALL node counts if every other child contains the point; of a MERGE node if no other child does; of a CLIP node
+ * (one body and its clipping helpers) if every helper does. Then the parent is asked likewise. */
+typedef struct CsgNode {
+    uint32_t parent;                           /* 0 = none */
+    uint32_t first, n;
+    CsgOp op;
+    uint32_t flags;
+    Bounds box;                                /* world; a point outside is outside (unless INVERSE) */
+    const void *accel;                         /* over the children's boxes when n is large, else NULL */
+} CsgNode;
+
+typedef struct PlacedTexture {
+    const Texture *texture;                    /* top layer */
+    Affine place;                              /* scene space: the point goes through its inverse first */
+    bool opaque;                               /* never lets light through, no alpha: shadow rays may stop */
+} PlacedTexture;
+
+typedef struct PlacedInterior {
+    const Interior *interior;                  /* never NULL; its address is the identity of the body */
+    Affine place;
+    bool hollow;
+} PlacedInterior;
+
+enum { MATERIAL_UV = 1, MATERIAL_DOUBLE_ILLUMINATE = 2, MATERIAL_NO_GLOBAL_LIGHTS = 4, MATERIAL_HAS_INTERIOR_TEXTURE = 8,
+       MATERIAL_CUTAWAY = 16 };
+
+typedef struct Material {
+    uint32_t texture, interior_texture;        /* in World.texture; texture 0 is "none" */
+    uint32_t interior;                         /* in World.interior */
+    uint32_t flags;
+    Affine uv_place;
+    uint32_t first_group_light, n_group_lights;        /* in World.group_light */
+} Material;
+
+typedef struct Light {
+    const LightSource *def;
+    Vec3 location, point_at, axis;             /* world; axis = unit(point_at - location) */
+    Vec3 axis1, axis2;                         /* area light, world */
+    Rgb colour;
+    double fade_distance;                      /* world */
+    double radius, falloff;                    /* spot: cosines; cylinder: world lengths */
+    uint32_t projected_through;                /* CSG item + 1; 0 = none */
+    bool grouped;                              /* lights only its group */
+} Light;
+
+enum {                                         /* World.features */
+    WORLD_HAS_CSG = 1, WORLD_HAS_TRANSPARENT = 2, WORLD_HAS_REFLECTION = 4, WORLD_HAS_FLAGS = 8, WORLD_HAS_FOG = 16
+};
+
+struct World {
+    Arena arena;
+    const Registry *registry;
+    double unit;                               /* world = scene * unit */
+    unsigned features;
+    Prim *prim;                 uint32_t n_prims;              /* in scene order: the tie break of equal hits */
+    Bounds *box;                                               /* of each prim, world, cut by its CSG ancestors */
+    Affine *place;              uint32_t n_places;
+    CsgNode *csg;               uint32_t n_csg;                /* csg[0] unused */
+    uint32_t *csg_child;        uint32_t n_csg_children;
+    uint32_t *body;             uint32_t n_bodies;             /* top-level items, for "which bodies contain the camera" */
+    Material *material;         uint32_t n_materials;
+    PlacedTexture *texture;     uint32_t n_textures;           /* texture[0]: none */
+    PlacedInterior *interior;   uint32_t n_interiors;          /* interior[0]: the default */
+    Light *light;               uint32_t n_lights;             /* global lights first, then grouped ones */
+    uint32_t n_global_lights;
+    uint32_t *group_light;      uint32_t n_group_lights;
+    CameraDef camera;                                          /* scene space; camera.c multiplies by unit */
+    Globals globals;
+    const Scene *scene;                                        /* fog, rainbow, sky_sphere: plain data, in scene units */
+    const AccelOps *accel_ops;
+    const void *accel;                                         /* over bounded prims: item i is prim accel_prim[i] */
+    uint32_t *accel_prim;       uint32_t n_accel_prims;
+    uint32_t *unbounded;        uint32_t n_unbounded;          /* prims tested for every ray */
+    Bounds bounds;                                             /* of all bounded prims */
+};
+
+#endif

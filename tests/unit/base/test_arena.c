@@ -1,0 +1,65 @@
+/* test_arena.c - the bump allocator keeps its promises. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "base/arena.h"
+#include "base/array.h"
+
+static void memory_is_zeroed_and_aligned(void **state)
+{
+    (void)state;
+    Arena a;
+    arena_init(&a);
+    for (size_t n = 1; n < 100000; n = n * 3 + 1) {
+        unsigned char *p = arena_alloc(&a, n);
+        assert_int_equal((uintptr_t)p % (n >= 64 ? 64 : 16), 0);
+        for (size_t i = 0; i < n; i++) {
+            assert_int_equal(p[i], 0);
+            p[i] = 0xff;
+        }
+    }
+    arena_free(&a);
+}
+
+static void rewinding_gives_back_what_came_after_the_mark(void **state)
+{
+    (void)state;
+    Arena a;
+    arena_init(&a);
+    int *kept = arena_new(&a, int);
+    *kept = 42;
+    ArenaMark m = arena_mark(&a);
+    for (int i = 0; i < 1000; i++)
+        arena_alloc(&a, 1000);
+    arena_rewind(&a, m);
+    assert_int_equal(*kept, 42);
+    assert_int_equal(a.used, m.used);
+    arena_free(&a);
+}
+
+static void arrays_grow_and_keep_their_items(void **state)
+{
+    (void)state;
+    Arena a;
+    arena_init(&a);
+    ARRAY(int) numbers = { 0 };
+    for (int i = 0; i < 10000; i++)
+        array_push(&a, &numbers, i);
+    assert_int_equal(numbers.n, 10000);
+    for (int i = 0; i < 10000; i++)
+        assert_int_equal(numbers.data[i], i);
+    arena_free(&a);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(memory_is_zeroed_and_aligned),
+        cmocka_unit_test(rewinding_gives_back_what_came_after_the_mark),
+        cmocka_unit_test(arrays_grow_and_keep_their_items),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
