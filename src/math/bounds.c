@@ -1,0 +1,100 @@
+/* bounds.c - box arithmetic; see bounds.h. */
+#include "math/bounds.h"
+
+#include <float.h>
+
+Bounds bounds_empty(void)
+{
+    return (Bounds){ { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
+}
+
+Bounds bounds_everything(void)
+{
+    return (Bounds){ { -INFINITY, -INFINITY, -INFINITY }, { INFINITY, INFINITY, INFINITY } };
+}
+
+static Vec3 least(Vec3 a, Vec3 b)
+{
+    return vec3(fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z));
+}
+
+static Vec3 greatest(Vec3 a, Vec3 b)
+{
+    return vec3(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z));
+}
+
+Bounds bounds_include(Bounds a, Vec3 p)
+{
+    return (Bounds){ least(a.lo, p), greatest(a.hi, p) };
+}
+
+Bounds bounds_of_points(const Vec3 *p, size_t n)
+{
+    Bounds b = bounds_empty();
+    for (size_t i = 0; i < n; i++)
+        b = bounds_include(b, p[i]);
+    return b;
+}
+
+Bounds bounds_union(Bounds a, Bounds b)
+{
+    return (Bounds){ least(a.lo, b.lo), greatest(a.hi, b.hi) };
+}
+
+Bounds bounds_intersection(Bounds a, Bounds b)
+{
+    return (Bounds){ greatest(a.lo, b.lo), least(a.hi, b.hi) };
+}
+
+Bounds bounds_grown(Bounds a, double by)
+{
+    return (Bounds){ sub(a.lo, vec3(by, by, by)), add(a.hi, vec3(by, by, by)) };
+}
+
+/* Interval arithmetic per axis (Arvo, Transforming Axis-Aligned Bounding Boxes, Graphics Gems, 1990); the pad covers
+ * the rounding of the three products and sums. Unbounded sides meet zero entries as 0, not NaN. */
+Bounds bounds_transformed(Bounds a, const Affine *place)
+{
+    if (place->identity || bounds_is_empty(a))
+        return a;
+    Bounds out;
+    for (int j = 0; j < 3; j++) {
+        double lo = place->m[3][j], hi = lo, size = fabs(lo);
+        for (int i = 0; i < 3; i++) {
+            double m = place->m[i][j];
+            if (m == 0)
+                continue;
+            double p = m * vec3_at(a.lo, i), q = m * vec3_at(a.hi, i);
+            lo += fmin(p, q);
+            hi += fmax(p, q);
+            size += fmax(fabs(p), fabs(q));
+        }
+        double pad = isfinite(size) ? size * 8 * DBL_EPSILON : 0;
+        vec3_set(&out.lo, j, lo - pad);
+        vec3_set(&out.hi, j, hi + pad);
+    }
+    return out;
+}
+
+bool bounds_is_empty(Bounds a)
+{
+    return !(a.lo.x <= a.hi.x && a.lo.y <= a.hi.y && a.lo.z <= a.hi.z);
+}
+
+bool bounds_is_finite(Bounds a)
+{
+    return vec3_finite(a.lo) && vec3_finite(a.hi);
+}
+
+bool bounds_contain(Bounds a, Vec3 p)
+{
+    return a.lo.x <= p.x && p.x <= a.hi.x && a.lo.y <= p.y && p.y <= a.hi.y && a.lo.z <= p.z && p.z <= a.hi.z;
+}
+
+double bounds_area(Bounds a)
+{
+    if (bounds_is_empty(a))
+        return 0;
+    Vec3 d = sub(a.hi, a.lo);
+    return 2 * (d.x * d.y + d.y * d.z + d.z * d.x);
+}
