@@ -4,6 +4,8 @@
 #ifndef MATH_AFFINE_H
 #define MATH_AFFINE_H
 
+#include <stddef.h>
+
 #include "math/vec.h"
 
 typedef struct Affine {
@@ -21,6 +23,9 @@ Affine affine_matrix(const double rows[12]);   /* inverse by cofactors; a singul
 Affine affine_frame(Vec3 origin, Vec3 axis, double radius, double length);   /* K(o, a, r, L) of 08-shapes 2.2 */
 Affine affine_then(Affine first, Affine second);
 Affine affine_inverse(Affine a);
+
+/* Where NULL stands for the identity. */
+static inline Affine affine_of(const Affine *a) { return a != NULL ? *a : affine_identity(); }
 
 static inline Vec3 affine_apply(const double m[4][3], Vec3 p)
 {

@@ -42,16 +42,16 @@ struct Object {
     const LightSource *light;                  /* LIGHT */
     const Object *const *child;                /* CSG kinds and groups */
     uint32_t n_child;
-    Affine place;
-    Affine uv_place;                           /* all transforms, also those a shape may swallow */
+    const Affine *place;                       /* every transform written in the block; here and below NULL is identity */
     const Texture *texture, *interior_texture; /* top layer first; NULL: inherited, then the default texture */
-    Affine texture_place, interior_texture_place;
+    const Affine *texture_place, *interior_texture_place;      /* often the same pointer as place */
     const Texture *default_texture;            /* in force when the outermost statement ended */
     const Interior *interior;                  /* NULL: the parent's, or an empty one */
-    Affine interior_place;                     /* for media densities */
+    const Affine *interior_place;              /* for media densities */
     const Object *const *clipped_by, *const *bounded_by;       /* already carry every transform written after them */
     uint32_t n_clipped_by, n_bounded_by;
     const PhotonsBlock *photons;
+    float importance;                          /* radiosity { importance }; 0 = not written */
 };
 
 #endif
