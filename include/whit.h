@@ -61,6 +61,38 @@ bool whit_load_text(Whit *w, const char *name, const char *text, size_t bytes);
 bool whit_check(Whit *w, const char *path);    /* parse only */
 bool whit_render(Whit *w, WhitProgress *progress, void *user);
 WhitImage whit_image(const Whit *w);
+
+typedef enum WhitFormat {
+    WHIT_PNG, WHIT_PPM, WHIT_TGA, WHIT_TGA_RLE, WHIT_BMP, WHIT_JPEG
+} WhitFormat;
+typedef enum WhitDither { WHIT_DITHER_NONE, WHIT_DITHER_B2, WHIT_DITHER_B3, WHIT_DITHER_B4, WHIT_DITHER_D1, WHIT_DITHER_D2,
+                          WHIT_DITHER_FS } WhitDither;
+
+typedef struct WhitFileOptions {               /* zeroed: 8-bit PNG, sRGB */
+    WhitFormat format;
+    int bits;                                  /* 0: 8; 5..16 */
+    bool alpha, grey;
+    WhitGamma gamma;  double gamma_value;      /* of the file; NONE: sRGB. Not used when the scene has no working gamma */
+    WhitDither dither;
+    int quality;                               /* JPEG, 0: 85 */
+} WhitFileOptions;
+
+/* Writes the picture, whole or not at all ("-": standard output). False: see the messages. */
+bool whit_write(Whit *w, const char *path, const WhitFileOptions *options);
+
+typedef struct WhitDifference {                /* of two pictures, per channel, in units of 1/255 */
+    int width, height;
+    double over_1, over_4;                     /* share of pixels that differ by more than 1 and 4 in some channel */
+    double mean, max, rmse;                    /* of the absolute difference over channels red, green, blue, alpha */
+    double psnr;                               /* dB; INFINITY for equal pictures */
+    double blocks_over_6;                      /* share of 4x4 blocks whose means differ by more than 6 */
+    const char *verdict;                       /* "exact", "match", "close" or "off" */
+} WhitDifference;
+
+/* Compares two picture files of one size. `heat`: NULL, or the PNG to write (black: equal, white: 32 or more apart).
+ * False: `error` holds why. */
+bool whit_compare(const char *a, const char *b, const char *heat, WhitDifference *out, char error[256]);
+
 int whit_exit_code(const Whit *w);             /* 0 fine, 1 the scene, 3 input or output */
 const char *whit_explain(Whit *w);             /* a readable plan of the compiled scene */
 const char *whit_summary(const Whit *w);       /* what was left out, or "" */
