@@ -91,7 +91,7 @@ struct Pigment {
     PigmentKind kind;
     bool has_quick, has_colour;                /* has_colour: a plain colour was written (not the black default) */
     Colour colour, quick;
-    Pattern pattern;
+    const Pattern *pattern;                    /* NULL for a plain colour; the chain alone counts for average and image */
     BlendMap map;
     const ImageMap *image;
     Loc loc;
@@ -108,7 +108,7 @@ struct Normal {
     bool no_bump_scale;
     float amount;                              /* bump_size; default 0.5 */
     float accuracy;                            /* default 0.02 */
-    Pattern pattern;
+    const Pattern *pattern;                    /* never NULL; ops may be (average, bump_map, facets, uv) */
     BlendMap map;
     const ImageMap *image;
     double facets_size, facets_coords, facets_metric;
@@ -143,7 +143,7 @@ struct Texture {
     const Normal *normal;                      /* may be NULL */
     const Finish *finish;
     bool no_bump_scale;
-    Pattern pattern;                           /* chain alone for average, material_map, tiles */
+    const Pattern *pattern;                    /* NULL when plain; chain alone for average, material_map, tiles, uv */
     BlendMap map;
     const ImageMap *image;                     /* material_map */
     const Texture *below;
