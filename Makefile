@@ -97,10 +97,26 @@ check-only: layers unit
 layers:
 	@tests/layers
 
+# A picture for a newcomer: installs what building needs, builds, renders, says where it is.
+demo:
+	@tests/packages demo
+	+@$(MAKE) --no-print-directory $(BUILD)/whit
+	@$(BUILD)/whit scenes/showpiece.pov +W800 +H600 +A0.3 +O$(BUILD)/showpiece.png
+	@echo "the picture is $(CURDIR)/$(BUILD)/showpiece.png"
+
+# POV-Ray's pictures of scenes/ again, into reference/ (needs povray).
+reference:
+	@tests/reference
+
+# POV-Ray's example scenes beside povray's pictures: verdicts, CPU, an HTML page. WHIT_CORPUS: a folder of ready pictures.
+corpus: $(BUILD)/whit
+	@BUILD=$(BUILD) tests/corpus $(CORPUS)
+
+
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: all unit check check-only layers clean
+.PHONY: all unit check check-only layers demo reference corpus clean
 .SECONDARY: $(TEST_LIB)
 
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)

@@ -1,0 +1,8 @@
+// A sky of gradients, mirrored.
+#version 3.7;
+global_settings { assumed_gamma 1.0 }
+camera { location <0, 2.5, -6> look_at <0, 0.6, 0> right 4/3*x angle 45 }
+light_source { <-8, 12, -10> rgb 1 }
+plane { y, 0 pigment { checker rgb 0.9 rgb 0.35 } }
+sky_sphere { pigment { gradient y color_map { [0 rgb <0.9, 0.8, 0.6>] [0.5 rgb <0.3, 0.5, 0.9>] [1 rgb <0.05, 0.1, 0.4>] } } }
+sphere { y, 1 pigment { rgb 0.05 } finish { reflection 0.85 } }
