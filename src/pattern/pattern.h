@@ -1,0 +1,21 @@
+/* pattern.h - chains of warps, and the value of a pattern at a point. */
+#ifndef PATTERN_PATTERN_H
+#define PATTERN_PATTERN_H
+
+#include "pattern/context.h"
+#include "scene/ops.h"
+
+/* The whole chain, turbulence record included (07, section 3). */
+Vec3 chain_apply(const WarpChain *chain, Vec3 p);
+
+/* Where the pattern, its map entries and its list items see p: the chain, without the turbulence record for patterns that use it in
+ * their own formula alone (marble, wood). */
+Vec3 pattern_point(const Pattern *pattern, Vec3 p);
+
+/* At a point that went through pattern_point; after frequency, phase and wave. */
+double pattern_value(const Pattern *pattern, Vec3 at, const TextureContext *context);
+
+/* Scalar turbulence U(p) of 06, section 4. */
+double pattern_turbulence(const Turbulence *t, int noise_generator, Vec3 p);
+
+#endif
