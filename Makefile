@@ -108,6 +108,11 @@ demo:
 reference:
 	@tests/reference
 
+# Time and memory beside povray, in one run.
+# (BENCH=--only=TEXT: some rows.)
+bench: $(BUILD)/whit
+	@BUILD=$(BUILD) tests/bench/bench $(BENCH)
+
 # POV-Ray's example scenes beside povray's pictures: verdicts, CPU, an HTML page. WHIT_CORPUS: a folder of ready pictures.
 corpus: $(BUILD)/whit
 	@BUILD=$(BUILD) tests/corpus $(CORPUS)
@@ -116,7 +121,7 @@ corpus: $(BUILD)/whit
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: all unit check check-only layers demo reference corpus clean
+.PHONY: bench all unit check check-only layers demo reference corpus clean
 .SECONDARY: $(TEST_LIB)
 
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
