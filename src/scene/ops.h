@@ -16,7 +16,11 @@ enum {
     SHAPE_PATCH = 1,                           /* has no inside (08-shapes 10.2) */
     SHAPE_HAS_OPEN = 2, SHAPE_HAS_STURM = 4, SHAPE_HAS_HIERARCHY = 8,  /* accepts that modifier; see Object.flags */
     SHAPE_HAS_UV = 16,                         /* surface fills uv */
-    SHAPE_NO_BOX_IN_CSG = 32                   /* its box does not cut an intersection's (height_field) */
+    SHAPE_NO_BOX_IN_CSG = 32,                  /* its inside reaches beyond its box (height_field, disc) */
+    /* Its data are the same for every copy: compile looks only at params and the object's flags, not at the place, and gets
+     * the identity for one. Copies then share what build_data gave (mesh, blob, height_field, text...). */
+    SHAPE_SHARED = 64,
+    SHAPE_NORMAL_STAYS = 128                   /* POV: `inverse` does not turn its normal (quadric, julia_fractal) */
 };
 
 struct ShapeOps {
@@ -37,7 +41,8 @@ struct ShapeOps {
     void (*hits)(const void *shape, const Ray *ray, HitSink *sink);
     bool (*inside)(const void *shape, Vec3 p);                 /* NULL: never inside */
     void (*surface)(const void *shape, const Hit *hit, Surface *out);  /* for the winner only; see Surface */
-    /* The box that min_extent and max_extent report, in the shape's own space (08-shapes 4.1). */
+    /* The box that min_extent and max_extent report, in the shape's own space (08-shapes 4.1); unbounded sides are INFINITY
+     * (the caller turns them into POV-Ray's 1e10). It must hold the shape: the scale of the World is chosen by it. */
     Bounds (*extent)(const void *params);
 };
 

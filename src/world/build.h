@@ -10,7 +10,7 @@ struct ShapeBuild {
     const Object *object;                      /* flags: OBJECT_OPEN, OBJECT_STURM... */
     const AccelOps *accel;                     /* for a shape that keeps its own hierarchy (mesh, blob) */
     Affine place;                              /* the shape's own space to the world: object, parents, unit scale */
-    double unit;                               /* World.unit, already in place */
+    double unit;                               /* World.unit, already in place; 1 for SHAPE_SHARED */
     Diag *diag;
     struct Compile *compile;                   /* private */
 };
@@ -28,6 +28,10 @@ double build_unit(double size);
 
 /* b->place preceded by a scale of s. */
 Affine build_place(const ShapeBuild *b, double s);
+
+/* For a SHAPE_SHARED shape whose data turn out to depend on where it stands: the place of this copy, unit included. The data
+ * are then this copy's alone. */
+Affine build_own_place(ShapeBuild *b);
 
 /* An index for Surface.texture: this texture, moved by `place` since it was attached, then by the object. */
 uint32_t build_texture(ShapeBuild *b, const Texture *texture, const Affine *place);

@@ -4,25 +4,31 @@
 
 #include "world/world.h"
 
-/* Prims with any of `skip` among their flags are not seen (PRIM_NO_IMAGE, PRIM_NO_SHADOW...). */
+/* Prims with any of `skip` among their flags are not seen: PRIM_NO_SHADOW for shadow rays, PRIM_NO_IMAGE for the camera's own
+ * rays, PRIM_NO_IMAGE | PRIM_NO_IMAGE_LATER for what passed a surface, PRIM_NO_REFLECTION after a reflection. */
 bool world_nearest(const World *w, const Ray *ray, uint32_t skip, Hit *out);
 
 /* Offers hits in (t_min, t_max) to `visit` in no order; true stops: "blocked". For shadow rays. */
 typedef bool HitVisit(void *user, const Hit *hit);
 bool world_each_hit(const World *w, const Ray *ray, uint32_t skip, HitVisit *visit, void *user);
 
+/* As world_nearest, for one prim: does it, counted with its CSG, still block this shadow ray? */
+bool prim_nearest(const World *w, uint32_t prim, const Ray *ray, uint32_t skip, Hit *out);
+
 /* Only one CSG item (projected_through, looks_like, trace()). */
 bool item_nearest(const World *w, uint32_t item, const Ray *ray, Hit *out);
 bool item_inside(const World *w, uint32_t item, Vec3 p);               /* item: prim, or ~csg node */
 
-/* The surface in world space: unit normals facing the ray, `back` set if they were turned, error in world lengths. */
+/* The surface in world space: unit normals facing the ray (normal and geometric each on its own), `back` set if `normal` was
+ * turned, error in world lengths. uv without want_uv is not filled. For cut faces of cutaway_textures the textures of the
+ * bodies they cut are listed in `texture`. */
 void world_surface(const World *w, const Ray *ray, const Hit *hit, bool want_uv, Surface *out);
 
 /* Where a new ray from this surface into direction d starts: moved off the surface, to d's side, by the error bound, so
  * that t_min = 0 suffices and no absolute epsilon is needed. */
 Vec3 surface_offset(const Surface *s, Vec3 d);
 
-/* Bodies that contain p, by index of interior, in scene order; returns how many (at most max). */
+/* Interiors of the bodies that contain p, each once, in scene order, their clips left aside; returns how many (at most max). */
 uint32_t world_interiors_at(const World *w, Vec3 p, uint32_t *interior, uint32_t max);
 
 #endif

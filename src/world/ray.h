@@ -39,19 +39,19 @@ double hit_limit(const HitSink *sink);
 
 enum { SURFACE_MAX_TEXTURES = 16 };
 
-/* Filled by ShapeOps.surface in the prim's local space, then carried to world space by prim_surface. */
+/* Filled by ShapeOps.surface in the prim's local space, then carried to world space by world_surface. */
 struct Surface {
     Vec3 p;                                    /* in: o + t d; the shape may move it onto the true surface */
     Vec3 normal;                               /* out: outward, any length; smooth shapes: the shading normal */
     Vec3 geometric;                            /* out if it differs from normal (smooth triangles); in: zero */
-    Vec2 uv;                                   /* out, if want_uv; otherwise (p.x, p.y) of the shape's own space */
+    Vec2 uv;                                   /* out, if want_uv and SHAPE_HAS_UV; for the rest scene coordinates x, y are taken */
     bool want_uv;                              /* in */
     double error;                              /* in: rounding bound on |p - surface|, local; a shape may raise it */
     Vec3 ray_d;                                /* in: local direction */
     /* out: weighted textures of this point (blob components, mesh vertices), by build_texture's index; 0 = the prim's own */
     uint32_t n_textures;
     struct { uint32_t texture; float weight; } texture[SURFACE_MAX_TEXTURES];
-    bool back;                                 /* set by prim_surface: the ray meets the inner side */
+    bool back;                                 /* set by world_surface: the ray meets the inner side */
 };
 typedef struct Surface Surface;
 

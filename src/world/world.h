@@ -24,7 +24,8 @@ enum {                                         /* Prim.flags */
     PRIM_NO_SHADOW = 1, PRIM_NO_IMAGE = 2, PRIM_NO_REFLECTION = 4, PRIM_NO_RADIOSITY = 8,
     PRIM_INVERSE = 16,                         /* normals flip, inside is negated */
     PRIM_PATCH = 32,                           /* never inside, also inverted */
-    PRIM_HELPER = 64                           /* clip or bound shape: inside tests only, not in the accelerator */
+    PRIM_HELPER = 64,                          /* clip or bound shape: inside tests only, not in the accelerator */
+    PRIM_NO_IMAGE_LATER = 128                  /* POV: no_image on a child of an unsplit union: the camera's own rays see it */
 };
 
 typedef struct Prim {
@@ -37,29 +38,33 @@ typedef struct Prim {
 } Prim;
 
 typedef enum CsgOp { CSG_ANY, CSG_ALL } CsgOp;         /* union and merge; intersection and difference */
-enum { CSG_MERGE = 1, CSG_CLIP = 2, CSG_INVERSE = 4, CSG_CUTAWAY = 8, CSG_DIFFERENCE = 16 };
+enum { CSG_MERGE = 1, CSG_CLIP = 2, CSG_INVERSE = 4, CSG_CUTAWAY = 8, CSG_DIFFERENCE = 16, CSG_BOUND = 32 };
 
 /* A set operation. Its children are items [first, first + n) of csg_child; item = prim index, or ~node. A hit on a child of
  * an ALL node counts if every other child contains the point; of a MERGE node if no other child does; of a CLIP node
- * (one body and its clipping helpers) if every helper does. Then the parent is asked likewise. */
+ * (one body and its clipping helpers) if every helper does; of a BOUND node (one body and its bounds) if the ray meets every
+ * bound. Then the parent is asked likewise. The first child stays first; the order of the others means nothing. */
 typedef struct CsgNode {
     uint32_t parent;                           /* 0 = none */
     uint32_t first, n;
+    uint32_t n_listed;                         /* children asked one by one; the rest stand in accel */
+    uint32_t first_prim, n_prims;              /* all the leaves below, helpers too */
+    uint32_t interior;                         /* of the whole: in World.interior */
     CsgOp op;
     uint32_t flags;
-    Bounds box;                                /* world; a point outside is outside (unless INVERSE) */
-    const void *accel;                         /* over the children's boxes when n is large, else NULL */
+    Bounds box;                                /* world; a point outside is outside, for INVERSE: inside */
+    const void *accel;                         /* item i is child first + n_listed + i; NULL when there are few */
 } CsgNode;
 
 typedef struct PlacedTexture {
     const Texture *texture;                    /* top layer */
-    Affine place;                              /* scene space: the point goes through its inverse first */
+    const Affine *place;                       /* scene space: the point goes through its inverse first; NULL: identity */
     bool opaque;                               /* never lets light through, no alpha: shadow rays may stop */
 } PlacedTexture;
 
 typedef struct PlacedInterior {
-    const Interior *interior;                  /* never NULL; its address is the identity of the body */
-    Affine place;
+    const Interior *interior;                  /* never NULL; the index of this entry is the identity of the body */
+    const Affine *place;                       /* for densities, as above; NULL: identity */
     bool hollow;
 } PlacedInterior;
 
@@ -70,7 +75,6 @@ typedef struct Material {
     uint32_t texture, interior_texture;        /* in World.texture; texture 0 is "none" */
     uint32_t interior;                         /* in World.interior */
     uint32_t flags;
-    Affine uv_place;
     uint32_t first_group_light, n_group_lights;        /* in World.group_light */
 } Material;
 
@@ -99,7 +103,8 @@ struct World {
     Affine *place;              uint32_t n_places;
     CsgNode *csg;               uint32_t n_csg;                /* csg[0] unused */
     uint32_t *csg_child;        uint32_t n_csg_children;
-    uint32_t *body;             uint32_t n_bodies;             /* top-level items, for "which bodies contain the camera" */
+    /* Top-level items that the accelerator does not find around a point: unbounded, inverted or clipped ones. */
+    uint32_t *body;             uint32_t n_bodies;
     Material *material;         uint32_t n_materials;
     PlacedTexture *texture;     uint32_t n_textures;           /* texture[0]: none */
     PlacedInterior *interior;   uint32_t n_interiors;          /* interior[0]: the default */
