@@ -15,9 +15,6 @@ bool world_each_hit(const World *w, const Ray *ray, uint32_t skip, HitVisit *vis
 /* As world_nearest, for one prim: does it, counted with its CSG, still block this shadow ray? */
 bool prim_nearest(const World *w, uint32_t prim, const Ray *ray, uint32_t skip, Hit *out);
 
-/* Only hits of this one prim that its CSG accepts: the blocker that hid a light last time is asked first. */
-bool prim_nearest(const World *w, uint32_t prim, const Ray *ray, Hit *out);
-
 /* Only one CSG item (projected_through, looks_like, trace()). */
 bool item_nearest(const World *w, uint32_t item, const Ray *ray, Hit *out);
 bool item_inside(const World *w, uint32_t item, Vec3 p);               /* item: prim, or ~csg node */
