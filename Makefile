@@ -71,7 +71,7 @@ $(BUILD)/src/%.o: src/%.c
 define kernel_rule
 $(BUILD)/src/%_kernel.$(1).o: src/%_kernel.c
 	@mkdir -p $$(@D)
-	$$(CC) $$(STD) $$(WARN) $$(CFLAGS) -O3 $$(ISA_$(1)) -DISA=$(1) -MMD -MP -c -o $$@ $$<
+	$$(CC) $$(STD) $$(WARN) $$(CFLAGS) -O3 -Wno-psabi $$(ISA_$(1)) -DISA=$(1) -MMD -MP -c -o $$@ $$<
 endef
 $(foreach isa,$(ISAS),$(eval $(call kernel_rule,$(isa))))
 

@@ -1,0 +1,168 @@
+/* noise.c - builds the tables of noise and picks the kernel for this machine.
+ *
+ * The tables are made by a congruential generator and by the Mersenne twister (Matsumoto and Nishimura 1998) from fixed
+ * seeds, as 06-noise-and-patterns, section 2 tells. They are filled before main, so that no reader needs a lock. */
+#include "math/noise.h"
+
+#include "base/cpu.h"
+#include "math/noise_tables.h"
+
+NoiseTables noise_tables;
+
+static const NoiseKernel *const kernels[] = CPU_TABLE(noise_kernel);
+static const NoiseKernel *kernel;
+
+const double noise_gradients[267] = {
+    -1, 0.604974, -0.937102, 0.414115, 0.576226, -0.0161593, 0.432334, 0.103685, 0.590539, 0.0286412, 0.46981,
+    -0.84622, -0.0734112, -0.304097, -0.40206, -0.210132, -0.919127, 0.652033, -0.83151, -0.183948, -0.671107,
+    0.852476, 0.043595, -0.404532, 0.75494, -0.335653, 0.618433, 0.605707, 0.708583, -0.477195, 0.899474, 0.490623,
+    0.221729, -0.400381, -0.853727, -0.932586, 0.659113, 0.961303, 0.325948, -0.750851, 0.842466, 0.734401, -0.649866,
+    0.394491, -0.466056, -0.434073, 0.109026, 0.0847028, -0.738857, 0.241505, 0.16228, -0.71426, -0.883665, -0.150408,
+    -0.90396, -0.686549, -0.785214, 0.488548, 0.0246433, 0.142473, -0.602136, 0.375845, -0.00779736, 0.498955,
+    -0.268147, 0.856382, -0.386007, -0.596094, -0.867735, -0.570977, -0.914366, 0.28896, 0.672206, -0.233783, 0.94815,
+    0.895262, 0.343252, -0.173388, -0.767971, -0.314748, 0.824308, -0.342092, 0.721431, -0.24004, -0.63653, 0.553277,
+    0.376272, 0.158984, -0.452659, 0.396323, -0.420676, -0.454154, 0.122179, 0.295857, 0.0664225, -0.202075,
+    -0.724788, 0.453513, 0.224567, -0.908812, 0.176349, -0.320516, -0.697139, 0.742702, -0.900786, 0.471489,
+    -0.133532, 0.119127, -0.889769, -0.23183, -0.669673, -0.046891, -0.803433, -0.966735, 0.475578, -0.652644,
+    0.0112459, -0.730007, 0.128283, 0.145647, -0.619318, 0.272023, 0.392966, 0.646418, -0.0207675, -0.315908,
+    0.480797, 0.535668, -0.250172, -0.83093, -0.653773, -0.443809, 0.119982, -0.897642, 0.89453, 0.165789, 0.633875,
+    -0.886839, 0.930877, -0.537194, 0.587732, 0.722011, -0.209461, -0.0424659, -0.814267, -0.919432, 0.280262,
+    -0.66302, -0.558099, -0.537469, -0.598779, 0.929656, -0.170794, -0.537163, 0.312581, 0.959442, 0.722652, 0.499931,
+    0.175616, -0.534874, -0.685115, 0.444999, 0.17171, 0.108202, -0.768704, -0.463828, 0.254231, 0.546014, 0.869474,
+    0.875212, -0.944427, 0.130724, -0.110185, 0.312184, -0.33138, -0.629206, 0.0606546, 0.722866, -0.0979477,
+    0.821561, 0.0931258, -0.972808, 0.0318151, -0.867033, -0.387228, 0.280995, -0.218189, -0.539178, -0.427359,
+    -0.602075, 0.311971, 0.277974, 0.773159, 0.592493, -0.0331884, -0.630854, -0.269947, 0.339132, 0.581079, 0.209461,
+    -0.317433, -0.284993, 0.181323, 0.341634, 0.804959, -0.229572, -0.758907, -0.336721, 0.605463, -0.991272,
+    -0.0188754, -0.300191, 0.368307, -0.176135, -0.3832, -0.749569, 0.62356, -0.573938, 0.278309, -0.971313, 0.839994,
+    -0.830686, 0.439078, 0.66128, 0.694514, 0.0565042, 0.54342, -0.438804, -0.0228428, -0.687068, 0.857267, 0.301991,
+    -0.494255, -0.941039, 0.775509, 0.410575, -0.362081, -0.671534, -0.348379, 0.932433, 0.886442, 0.868681,
+    -0.225666, -0.062211, -0.0976425, -0.641444, -0.848112, 0.724697, 0.473503, 0.998749, 0.174701, 0.559625,
+    -0.029099, -0.337392, -0.958129, -0.659785, 0.236042, -0.246937, 0.659449, -0.027512, 0.821897, -0.226215,
+    0.0181735, 0.500481, -0.420127, -0.427878, 0.566186,
+};
+
+static void make_hash(NoiseTables *t)
+{
+    unsigned state = 0;
+    for (int i = 0; i < 4096; i++)
+        t->hash[i] = (uint16_t)i;
+    for (int i = 4095; i >= 0; i--) {
+        unsigned j = noise_sample(&state) % 4096;
+        uint16_t old = t->hash[i];
+        t->hash[i] = t->hash[j];
+        t->hash[j] = old;
+    }
+    for (int i = 0; i < 4096; i++)
+        t->hash[4096 + i] = t->hash[i];
+    for (int i = 0; i < 8192; i++)
+        t->corner[i] = (uint8_t)(t->hash[i] & 255);
+}
+
+static void make_generator3(NoiseTables *t)
+{
+    unsigned state = 1;
+    for (int i = 0; i < 2048; i++) {
+        double v[3], n2;
+        do {
+            n2 = 0;
+            for (int k = 0; k < 3; k++) {
+                v[k] = ((int)(noise_sample(&state) % 4096) - 2048) / 2048.0;
+                n2 += v[k] * v[k];
+            }
+        } while (n2 > 1 || n2 < 1e-5);
+        for (int k = 0; k < 3; k++)
+            t->gradient3[i][k] = v[k] / sqrt(n2);
+    }
+    for (int i = 0; i < 2048; i++)
+        t->permutation3[i] = (uint16_t)i;
+    /* POV: the shuffle starts one past the end and steps by two, so a 0 gets in and one number is lost. */
+    for (int i = 2048; i > 0; i -= 2) {
+        unsigned j = noise_sample(&state) % 2048;
+        uint16_t old = t->permutation3[i];
+        t->permutation3[i] = t->permutation3[j];
+        t->permutation3[j] = old;
+    }
+    for (int i = 0; i < 2050; i++) {
+        t->permutation3[2048 + i] = t->permutation3[i];
+        for (int k = 0; k < 3; k++)
+            t->gradient3[2048 + i][k] = t->gradient3[i][k];
+    }
+}
+
+/* MT19937, seed 5489. */
+static void make_random(NoiseTables *t)
+{
+    enum { N = 624, M = 397 };
+    uint32_t mt[N];
+    mt[0] = 5489;
+    for (uint32_t i = 1; i < N; i++)
+        mt[i] = 1812433253u * (mt[i - 1] ^ mt[i - 1] >> 30) + i;
+    for (unsigned k = 0, at = N; k < NOISE_CELLS + 2; k++) {
+        if (at == N) {
+            for (unsigned i = 0; i < N; i++) {
+                uint32_t y = (mt[i] & 0x80000000u) | (mt[(i + 1) % N] & 0x7fffffffu);
+                mt[i] = mt[(i + M) % N] ^ y >> 1 ^ (y & 1 ? 0x9908b0dfu : 0);
+            }
+            at = 0;
+        }
+        uint32_t y = mt[at++];
+        y ^= y >> 11;
+        y ^= y << 7 & 0x9d2c5680u;
+        y ^= y << 15 & 0xefc60000u;
+        y ^= y >> 18;
+        t->random[k] = y / 4294967296.0;
+    }
+}
+
+__attribute__((constructor)) static void make_tables(void)
+{
+    make_hash(&noise_tables);
+    make_generator3(&noise_tables);
+    make_random(&noise_tables);
+    kernel = kernels[cpu_isa()];
+}
+
+double noise_value(int generator, Vec3 p)
+{
+    return kernel->value(generator, p);
+}
+
+Vec3 noise_vector(Vec3 p)
+{
+    return kernel->vector(p);
+}
+
+void noise_octaves(int generator, Vec3 p, double first, double step, int n, double *out)
+{
+    kernel->octaves(generator, p, first, step, n, out);
+}
+
+double noise_turbulence(int generator, Vec3 p, int octaves, double omega, double lambda)
+{
+    return kernel->turbulence(generator, p, octaves, omega, lambda);
+}
+
+Vec3 noise_vector_turbulence(Vec3 p, int octaves, double omega, double lambda)
+{
+    return kernel->vector_turbulence(p, octaves, omega, lambda);
+}
+
+unsigned noise_cell_row(long long a, long long b)
+{
+    return noise_tables.hash[noise_tables.hash[a & 4095] ^ (unsigned)(b & 4095)];
+}
+
+unsigned noise_cell_in_row(unsigned row, long long c)
+{
+    return noise_tables.hash[row ^ (unsigned)(c & 4095)];
+}
+
+unsigned noise_cell(long long a, long long b, long long c)
+{
+    return noise_cell_in_row(noise_cell_row(a, b), c);
+}
+
+double noise_random(unsigned k)
+{
+    return noise_tables.random[k];
+}

@@ -1,0 +1,33 @@
+/* noise_tables.h - the tables behind noise, shared by noise.c and the builds of noise_kernel.c. Private to them. */
+#ifndef MATH_NOISE_TABLES_H
+#define MATH_NOISE_TABLES_H
+
+#include <stdint.h>
+
+#include "base/cpu.h"
+#include "math/noise.h"
+
+typedef struct NoiseTables {
+    uint16_t hash[8192];                       /* H */
+    uint8_t corner[8192];                      /* H mod 256: the last step, which picks from R */
+    double gradient3[4098][4];                 /* G of generator 3, fourth component 0 */
+    uint16_t permutation3[4098];               /* P */
+    double random[NOISE_CELLS + 2];            /* the part of T that hashes reach */
+} NoiseTables;
+
+extern NoiseTables noise_tables;               /* written once, before main */
+extern const double noise_gradients[267];      /* R */
+
+typedef struct NoiseKernel {
+    double (*value)(int generator, Vec3 p);
+    Vec3 (*vector)(Vec3 p);
+    void (*octaves)(int generator, Vec3 p, double first, double step, int n, double *out);
+    double (*turbulence)(int generator, Vec3 p, int octaves, double omega, double lambda);
+    Vec3 (*vector_turbulence)(Vec3 p, int octaves, double omega, double lambda);
+} NoiseKernel;
+
+/* One element each: a name that is an address fits CPU_TABLE. */
+#define NOISE_DECLARE(isa) extern const NoiseKernel noise_kernel_##isa[1];
+CPU_ISAS(NOISE_DECLARE)
+
+#endif

@@ -1,0 +1,130 @@
+/* test_noise.c - noise against the measured numbers, its tables, and its builds against each other. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "base/cpu.h"
+#include "lib/csv.h"
+#include "math/noise_tables.h"
+
+static const NoiseKernel *const kernels[] = CPU_TABLE(noise_kernel);
+
+static void hash_and_permutation_have_their_check_sums(void **state)
+{
+    (void)state;
+    unsigned long long sum = 0;
+    for (unsigned i = 0; i < 4096; i++)
+        sum += i * (unsigned long long)noise_tables.hash[i];
+    assert_true(sum == 17548613913ull);
+    static const uint16_t tail[] = { 1690, 2045, 1710, 2047, 0, 1, 386, 3 };
+    for (int i = 0; i < 8; i++)
+        assert_int_equal(noise_tables.permutation3[2044 + i], tail[i]);
+    assert_true(fabs(noise_tables.gradient3[2047][2] + 0.750507912678) < 1e-12);
+    assert_true(noise_random(0) == 3499211612.0 / 4294967296.0 && noise_random(2) == 3890346734.0 / 4294967296.0);
+}
+
+static void every_measured_noise_is_met(void **state)
+{
+    (void)state;
+    Csv c;
+    csv_open(&c, "tests/vectors/noise.csv");
+    while (csv_next(&c)) {
+        Vec3 p = vec3(csv_number(&c, 1), csv_number(&c, 2), csv_number(&c, 3));
+        double got = noise_value((int)csv_number(&c, 0), p), want = csv_number(&c, 4);
+        if (fabs(got - want) > 2e-12)
+            fail_msg("line %d: %.13f, not %.13f", c.line, got, want);
+    }
+}
+
+static void every_measured_vector_noise_and_turbulence_is_met(void **state)
+{
+    (void)state;
+    Csv c;
+    csv_open(&c, "tests/vectors/dnoise.csv");
+    while (csv_next(&c)) {
+        Vec3 p = vec3(csv_number(&c, 3), csv_number(&c, 4), csv_number(&c, 5));
+        int octaves = (int)csv_number(&c, 2);
+        Vec3 got = noise_vector_turbulence(p, octaves, (float)csv_number(&c, 1), (float)csv_number(&c, 0));
+        Vec3 want = vec3(csv_number(&c, 6), csv_number(&c, 7), csv_number(&c, 8));
+        if (max_abs(sub(got, want)) > 4e-12)
+            fail_msg("line %d: %.13f %.13f %.13f", c.line, got.x, got.y, got.z);
+        Vec3 once = noise_vector(p);
+        if (octaves == 1)
+            assert_memory_equal(&got, &once, sizeof got);
+    }
+}
+
+static Vec3 random_point(unsigned *seed, double size)
+{
+    Vec3 p;
+    p.x = (noise_sample(seed) / 16384.0 - 1) * size;
+    p.y = (noise_sample(seed) / 16384.0 - 1) * size;
+    p.z = (noise_sample(seed) / 16384.0 - 1) * size;
+    return p;
+}
+
+static void instruction_sets_give_the_same_bits(void **state)
+{
+    (void)state;
+    const NoiseKernel *base = kernels[CPU_BASE];
+    unsigned seed = 7;
+    for (int i = 0; i < 40000; i++) {
+        Vec3 p = random_point(&seed, i % 3 == 0 ? 3 : i % 3 == 1 ? 1e4 : 1e12);
+        const NoiseKernel *best = kernels[i % 2 ? cpu_isa() : cpu_isa() > CPU_BASE ? CPU_AVX2 : CPU_BASE];
+        for (int g = 1; g <= 3; g++) {
+            double a = base->turbulence(g, p, 6, 0.5, 2), b = best->turbulence(g, p, 6, 0.5, 2);
+            assert_memory_equal(&a, &b, sizeof a);
+            double many[6];
+            best->octaves(g, p, 4, 2, 6, many);
+            a = base->value(g, scaled(p, 16));
+            assert_memory_equal(&a, &many[2], sizeof a);
+        }
+        Vec3 v = base->vector_turbulence(p, 6, 0.5, 2), w = best->vector_turbulence(p, 6, 0.5, 2);
+        assert_memory_equal(&v, &w, sizeof v);
+    }
+}
+
+static void noise_is_continuous_and_within_its_range(void **state)
+{
+    (void)state;
+    unsigned seed = 9;
+    for (int i = 0; i < 20000; i++) {
+        Vec3 p = random_point(&seed, 50);
+        if (i % 2)
+            p.x = floor(p.x);
+        Vec3 q = add(p, vec3(1e-9, -1e-9, 1e-9));
+        for (int g = 1; g <= 3; g++) {
+            double a = noise_value(g, p), b = noise_value(g, q);
+            assert_true(a >= 0 && a <= 1);
+            assert_true(fabs(a - b) < 1e-7);
+        }
+        assert_true(max_abs(sub(noise_vector(p), noise_vector(q))) < 1e-7);
+    }
+}
+
+static void points_without_a_place_in_the_lattice_are_harmless(void **state)
+{
+    (void)state;
+    const double odd[] = { NAN, INFINITY, -INFINITY, 1e300, -1e19, 1e17 };
+    for (int i = 0; i < 6; i++)
+        for (int g = 1; g <= 3; g++) {
+            double v = noise_value(g, vec3(odd[i], 0.5, 0.5));
+            assert_true(v >= 0 && v <= 1);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hash_and_permutation_have_their_check_sums),
+        cmocka_unit_test(every_measured_noise_is_met),
+        cmocka_unit_test(every_measured_vector_noise_and_turbulence_is_met),
+        cmocka_unit_test(instruction_sets_give_the_same_bits),
+        cmocka_unit_test(noise_is_continuous_and_within_its_range),
+        cmocka_unit_test(points_without_a_place_in_the_lattice_are_harmless),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
