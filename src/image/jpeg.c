@@ -1,0 +1,152 @@
+/* jpeg.c - JPEG by libjpeg with its default settings. */
+#include <string.h>
+
+#include "image/codec.h"
+
+static bool probe(Str bytes)
+{
+    return bytes.n >= 3 && memcmp(bytes.data, "\xff\xd8\xff", 3) == 0;
+}
+
+#ifdef HAVE_JPEG
+#include <setjmp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <jpeglib.h>
+#include <jerror.h>
+
+typedef struct Errors {
+    struct jpeg_error_mgr base;
+    jmp_buf landing;
+    char *text;
+} Errors;
+
+_Noreturn static void on_error(j_common_ptr j)
+{
+    Errors *e = (Errors *)j->err;
+    char message[JMSG_LENGTH_MAX];
+    e->base.format_message(j, message);
+    codec_fail(e->text, "damaged JPEG: %.200s", message);
+    longjmp(e->landing, 1);
+}
+
+/* The library mends a file that ends early with grey; we say so instead. */
+static void on_message(j_common_ptr j, int level)
+{
+    Errors *e = (Errors *)j->err;
+    if (level < 0 && e->base.msg_code == JWRN_JPEG_EOF) {
+        codec_fail(e->text, "the file ends before its last pixel");
+        longjmp(e->landing, 1);
+    }
+}
+
+static struct jpeg_error_mgr *errors_set(Errors *e, char *text)
+{
+    jpeg_std_error(&e->base);
+    e->base.error_exit = on_error;
+    e->base.emit_message = on_message;
+    e->text = text;
+    return &e->base;
+}
+
+static bool read_with(struct jpeg_decompress_struct *j, Str bytes, Image *im, unsigned char *pixels, char error[IMAGE_ERROR])
+{
+    jpeg_mem_src(j, (const unsigned char *)bytes.data, bytes.n);
+    jpeg_read_header(j, TRUE);
+    /* a scan of zeros needs little more than a bit for each block of 64 */
+    if (!codec_size((long)j->image_width, (long)j->image_height, bytes, 4096, error))
+        return false;
+    if (j->jpeg_color_space == JCS_CMYK || j->jpeg_color_space == JCS_YCCK)
+        return codec_fail(error, "JPEG files in CMYK are not read; convert it to RGB");
+    j->out_color_space = j->num_components == 1 ? JCS_GRAYSCALE : JCS_RGB;
+    im->width = (int)j->image_width;
+    im->height = (int)j->image_height;
+    im->channels = j->num_components == 1 ? 1 : 3;
+    im->max_value = 255;
+    if (pixels == NULL)
+        return true;
+    jpeg_start_decompress(j);
+    size_t row = (size_t)im->width * (size_t)im->channels;
+    while (j->output_scanline < j->output_height) {
+        JSAMPROW to = pixels + row * j->output_scanline;
+        jpeg_read_scanlines(j, &to, 1);
+    }
+    jpeg_finish_decompress(j);
+    return true;
+}
+
+static bool read_image(Str bytes, Image *im, void *pixels, char error[IMAGE_ERROR])
+{
+    if (!probe(bytes))
+        return codec_fail(error, "this is no JPEG file");
+    struct jpeg_decompress_struct j;
+    Errors errors;
+    j.err = errors_set(&errors, error);
+    bool ok = false;
+    if (setjmp(errors.landing) == 0) {
+        jpeg_create_decompress(&j);
+        ok = read_with(&j, bytes, im, pixels, error);
+    }
+    jpeg_destroy_decompress(&j);
+    return ok;
+}
+
+static void write_with(struct jpeg_compress_struct *j, FILE *to, const Codes *c, unsigned char *row)
+{
+    jpeg_stdio_dest(j, to);
+    j->image_width = (JDIMENSION)c->width;
+    j->image_height = (JDIMENSION)c->height;
+    j->input_components = 3;
+    j->in_color_space = JCS_RGB;
+    jpeg_set_defaults(j);
+    int quality = c->how->quality;
+    jpeg_set_quality(j, quality <= 0 ? 85 : quality > 100 ? 100 : quality, TRUE);
+    jpeg_start_compress(j, TRUE);
+    size_t n = (size_t)c->width * 3;
+    for (int y = 0; y < c->height; y++) {
+        for (size_t i = 0; i < n; i++)
+            row[i] = (unsigned char)c->code[(size_t)y * n + i];
+        JSAMPROW from = row;
+        jpeg_write_scanlines(j, &from, 1);
+    }
+    jpeg_finish_compress(j);
+}
+
+static bool write_image(FILE *to, const Codes *c, char error[IMAGE_ERROR])
+{
+    struct jpeg_compress_struct j;
+    Errors errors;
+    j.err = errors_set(&errors, error);
+    unsigned char *const row = malloc((size_t)c->width * 3);
+    if (row == NULL)
+        return codec_fail(error, "not enough memory");
+    bool ok = false;
+    if (setjmp(errors.landing) == 0) {
+        jpeg_create_compress(&j);
+        write_with(&j, to, c, row);
+        ok = true;
+    }
+    jpeg_destroy_compress(&j);
+    free(row);
+    return ok;
+}
+
+const ImageCodec codec_jpeg = { IMAGE_JPEG, probe, read_image, write_image };
+
+#else
+
+static bool read_image(Str bytes, Image *im, void *pixels, char error[IMAGE_ERROR])
+{
+    (void)bytes, (void)im, (void)pixels;
+    return codec_fail(error, "this build has no libjpeg and cannot read JPEG files");
+}
+
+static bool write_image(FILE *to, const Codes *c, char error[IMAGE_ERROR])
+{
+    (void)to, (void)c;
+    return codec_fail(error, "this build has no libjpeg and cannot write JPEG files");
+}
+
+const ImageCodec codec_jpeg = { IMAGE_JPEG, probe, read_image, write_image };
+
+#endif
