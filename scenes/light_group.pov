@@ -1,0 +1,8 @@
+// A group with its own light.
+#version 3.7;
+global_settings { assumed_gamma 1.0 }
+camera { location <0, 2.5, -6> look_at <0, 0.6, 0> right 4/3*x angle 45 }
+light_source { <-8, 12, -10> rgb 1 }
+plane { y, 0 pigment { checker rgb 0.9 rgb 0.35 } }
+light_group { light_source { <0, 5, -2> rgb <1, 0.2, 0.2> } sphere { <-1.2, 0.8, 0>, 0.8 pigment { rgb 1 } } global_lights off }
+sphere { <1.2, 0.8, 0>, 0.8 pigment { rgb 1 } }

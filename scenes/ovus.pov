@@ -1,0 +1,7 @@
+// An egg.
+#version 3.7;
+global_settings { assumed_gamma 1.0 }
+camera { location <0, 2.5, -6> look_at <0, 0.6, 0> right 4/3*x angle 45 }
+light_source { <-8, 12, -10> rgb 1 }
+plane { y, 0 pigment { checker rgb 0.9 rgb 0.35 } }
+ovus { 0.7, 0.35 translate 0.7*y pigment { rgb <0.95, 0.85, 0.7> } finish { phong 0.5 } }

@@ -1,0 +1,7 @@
+// Bozo with turbulence.
+#version 3.7;
+global_settings { assumed_gamma 1.0 }
+camera { orthographic location -5*z look_at 0 right 4*x up 3*y }
+light_source { <-8, 12, -20> rgb 1 }
+box { <-1.9, -1.4, 0>, <-0.05, 1.4, 0.1> pigment { bozo turbulence <0.5, 0.8, 0.2> octaves 4 omega 0.6 lambda 2.2 color_map { [0 rgb <0.1, 0.1, 0.4>] [0.5 rgb <0.9, 0.5, 0.2>] [1 rgb <1, 1, 0.8>] } scale 0.4 } }
+sphere { <0.95, 0, 0>, 0.95 pigment { bozo turbulence <0.5, 0.8, 0.2> octaves 4 omega 0.6 lambda 2.2 color_map { [0 rgb <0.1, 0.1, 0.4>] [0.5 rgb <0.9, 0.5, 0.2>] [1 rgb <1, 1, 0.8>] } scale 0.4 } }

@@ -1,0 +1,7 @@
+// A surface of revolution.
+#version 3.7;
+global_settings { assumed_gamma 1.0 }
+camera { location <0, 2.5, -6> look_at <0, 0.6, 0> right 4/3*x angle 45 }
+light_source { <-8, 12, -10> rgb 1 }
+plane { y, 0 pigment { checker rgb 0.9 rgb 0.35 } }
+sor { 7, <0.2, -0.1>, <0.5, 0>, <0.8, 0.5>, <0.35, 1.1>, <0.3, 1.4>, <0.5, 1.7>, <0.6, 1.8> pigment { rgb <0.7, 0.8, 0.4> } finish { phong 0.6 } }
