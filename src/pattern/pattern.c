@@ -1,0 +1,45 @@
+/* pattern.c - the value of a pattern: its row's formula, then frequency and phase, then the wave. */
+#include "pattern/pattern.h"
+
+#include "math/noise.h"
+#include "pattern/wave.h"
+
+Vec3 pattern_point(const Pattern *pattern, Vec3 p)
+{
+    if (pattern->ops == NULL || !(pattern->ops->flags & PATTERN_OWN_TURBULENCE) || !pattern->chain.has_turbulence)
+        return chain_apply(&pattern->chain, p);
+    WarpChain chain = pattern->chain;
+    chain.has_turbulence = false;
+    return chain_apply(&chain, p);
+}
+
+static double wave_value(const Pattern *pattern, double v)
+{
+    switch (pattern->wave) {
+    case WAVE_TRIANGLE: return wave_triangle(v);
+    case WAVE_SINE: return (1 + wave_sine(v)) * 0.5;
+    case WAVE_SCALLOP: return fabs(wave_sine(v * 0.5));
+    case WAVE_CUBIC: return v * v * (3 - 2 * v);
+    case WAVE_POLY: return pow(v, (double)pattern->wave_exponent);
+    case WAVE_RAMP: break;
+    }
+    return v;
+}
+
+double pattern_value(const Pattern *pattern, Vec3 at, const TextureContext *context)
+{
+    PatternPoint point = { .p = at, .pattern = pattern, .context = context };
+    double v = pattern->ops->value(pattern->params, &point);
+    double frequency = (double)pattern->frequency;
+    /* POV: the modulus is 1.00001, so each turn loses a little and ramps drift far from the origin. */
+    if (frequency != 0)
+        v = fmod(v * frequency + (double)pattern->phase, 1.00001);
+    if (v < 0)
+        v -= floor(v);
+    return wave_value(pattern, v);
+}
+
+double pattern_turbulence(const Turbulence *t, int noise_generator, Vec3 p)
+{
+    return noise_turbulence(noise_generator, p, t->octaves, (double)t->omega, (double)t->lambda);
+}
