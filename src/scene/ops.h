@@ -20,7 +20,10 @@ enum {
     /* Its data are the same for every copy: compile looks only at params and the object's flags, not at the place, and gets
      * the identity for one. Copies then share what build_data gave (mesh, blob, height_field, text...). */
     SHAPE_SHARED = 64,
-    SHAPE_NORMAL_STAYS = 128                   /* POV: `inverse` does not turn its normal (quadric, julia_fractal) */
+    SHAPE_NORMAL_STAYS = 128,                  /* POV: `inverse` does not turn its normal (quadric, julia_fractal) */
+    SHAPE_IGNORES_CLIP = 256,                  /* POV: clipped_by does nothing to its hits (bicubic_patch) */
+    SHAPE_CONVEX = 512,                        /* its inside is convex: a bound that holds a box's corners holds the box */
+    SHAPE_BOUND_STAYS = 1024                   /* POV: an outermost bounded_by cuts exactly, not by its box (poly, quadric, text) */
 };
 
 struct ShapeOps {

@@ -53,7 +53,7 @@ typedef struct CsgNode {
     uint32_t interior;                         /* of the whole: in World.interior */
     CsgOp op;
     uint32_t flags;
-    Bounds box;                                /* world; a point outside is outside, for INVERSE: inside */
+    Bounds box;                                /* world; a point outside is outside, for INVERSE: inside; for BOUND: see prim.c */
     const void *accel;                         /* item i is child first + n_listed + i; NULL when there are few */
 } CsgNode;
 

@@ -1,0 +1,164 @@
+/* csg.c - set operations over items: what they reach, and boxes cut by what stands around them.
+ *
+ * A leaf of an intersection can only be hit where the intersection can be, so the accelerator gets each leaf's box cut by
+ * those of its ancestors: an endless plane in an intersection becomes a face. */
+#include "compile/context.h"
+
+enum { LISTED_MAX = 8 };                       /* from so many children on, a tree answers "who is around this point?" */
+
+Reach item_reach(const Compile *c, uint32_t item)
+{
+    if (is_node(item)) {
+        const CsgNode *node = &c->csg.data[~item];
+        if (node->flags & CSG_BOUND)
+            return item_reach(c, c->csg_child.data[node->first]);
+        return (Reach){ node->box, (node->flags & CSG_INVERSE) != 0 };
+    }
+    const Prim *prim = &c->prim.data[item];
+    if (prim->ops->flags & SHAPE_NO_BOX_IN_CSG)
+        return (Reach){ bounds_everything(), false };
+    return (Reach){ c->box.data[item], (prim->flags & PRIM_INVERSE) != 0 };
+}
+
+Bounds item_hull(const Compile *c, uint32_t item)
+{
+    if (!is_node(item))
+        return c->box.data[item];
+    const CsgNode *node = &c->csg.data[~item];
+    Bounds hull = bounds_empty();
+    uint32_t n = node->flags & (CSG_CLIP | CSG_BOUND) ? 1 : node->n;
+    for (uint32_t i = 0; i < n; i++)
+        hull = bounds_union(hull, item_hull(c, c->csg_child.data[node->first + i]));
+    if (node->op == CSG_ALL && !(node->flags & (CSG_INVERSE | CSG_BOUND)))
+        hull = bounds_intersection(hull, node->box);
+    return hull;
+}
+
+bool item_holds(const Compile *c, uint32_t item, Bounds box)
+{
+    if (is_node(item) || !bounds_is_finite(box))
+        return false;
+    const Prim *prim = &c->prim.data[item];
+    if (!(prim->ops->flags & SHAPE_CONVEX) || (prim->flags & PRIM_INVERSE) || prim->ops->inside == NULL)
+        return false;
+    for (int i = 0; i < 8; i++) {
+        Vec3 corner = vec3(i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y, i & 4 ? box.hi.z : box.lo.z);
+        if (!prim->ops->inside(prim->data, affine_point_back(&c->place.data[prim->place], corner)))
+            return false;
+    }
+    return true;
+}
+
+/* Of all children together. An ALL is outside wherever one child is; if every child is a complement, it is one itself. */
+static Reach reach_of(const Compile *c, CsgOp op, const Items *children)
+{
+    Bounds within = bounds_everything(), around = bounds_empty(), co_within = bounds_everything(), co_around = bounds_empty();
+    uint32_t n_co = 0;
+    for (uint32_t i = 0; i < children->n; i++) {
+        Reach r = item_reach(c, children->data[i]);
+        if (r.co) {
+            n_co++;
+            co_within = bounds_intersection(co_within, r.box);
+            co_around = bounds_union(co_around, r.box);
+        } else {
+            within = bounds_intersection(within, r.box);
+            around = bounds_union(around, r.box);
+        }
+    }
+    if (op == CSG_ALL)
+        return n_co > 0 && n_co == children->n ? (Reach){ co_around, true } : (Reach){ within, false };
+    return n_co > 0 ? (Reach){ co_within, true } : (Reach){ around, false };
+}
+
+static void set_parent(Compile *c, uint32_t item, uint32_t node)
+{
+    if (is_node(item))
+        c->csg.data[~item].parent = node;
+    else
+        c->prim.data[item].csg = node;
+}
+
+/* Outside its box, does the child say what a search of this operation is not looking for? Then the tree may skip it. */
+static bool is_selective(CsgOp op, Reach r)
+{
+    return (op == CSG_ALL) == r.co;
+}
+
+/* Children that have to be asked one by one go first, the others into a tree of boxes. */
+static void list_children(Compile *c, uint32_t index, const Items *children)
+{
+    CsgNode *node = &c->csg.data[index];
+    bool tree = children->n > LISTED_MAX && !(node->flags & (CSG_CLIP | CSG_BOUND));
+    Items later = { 0 };
+    for (uint32_t i = 0; i < children->n; i++) {
+        uint32_t item = children->data[i];
+        set_parent(c, item, index);
+        if (tree && i > 0 && is_selective(node->op, item_reach(c, item)))
+            array_push(c->arena, &later, item);
+        else
+            array_push(c->arena, &c->csg_child, item);
+    }
+    node->n_listed = node->n - later.n;
+    if (later.n == 0)
+        return;
+    Bounds *box = arena_array(c->arena, Bounds, later.n);
+    for (uint32_t i = 0; i < later.n; i++) {
+        array_push(c->arena, &c->csg_child, later.data[i]);
+        box[i] = item_reach(c, later.data[i]).box;
+    }
+    node->accel = c->w->accel_ops->build(c->arena, box, later.n);
+}
+
+uint32_t csg_node(Compile *c, CsgOp op, uint32_t flags, const Items *children, uint32_t first_prim)
+{
+    Reach r = reach_of(c, op, children);
+    uint32_t index = c->csg.n;
+    array_push(c->arena, &c->csg, (CsgNode){ .first = c->csg_child.n, .n = children->n, .first_prim = first_prim,
+                                             .n_prims = c->prim.n - first_prim, .op = op,
+                                             .flags = flags | (r.co ? CSG_INVERSE : 0), .box = r.box });
+    list_children(c, index, children);
+    return ~index;
+}
+
+/* Turns the order of the prims from first_prim on around; nodes from first_node on are those above them. */
+void csg_reverse(Compile *c, uint32_t first_prim, uint32_t first_node)
+{
+    uint32_t end = c->prim.n;
+    if (end - first_prim < 2)
+        return;
+    for (uint32_t i = first_prim, j = end - 1; i < j; i++, j--) {
+        Prim prim = c->prim.data[i];
+        c->prim.data[i] = c->prim.data[j];
+        c->prim.data[j] = prim;
+        Bounds box = c->box.data[i];
+        c->box.data[i] = c->box.data[j];
+        c->box.data[j] = box;
+    }
+    for (uint32_t k = first_node; k < c->csg.n; k++) {
+        CsgNode *node = &c->csg.data[k];
+        node->first_prim = first_prim + end - (node->first_prim + node->n_prims);
+        for (uint32_t i = node->first; i < node->first + node->n; i++)
+            if (!is_node(c->csg_child.data[i]))
+                c->csg_child.data[i] = first_prim + end - 1 - c->csg_child.data[i];
+    }
+}
+
+static void cut_item(Compile *c, uint32_t item, Bounds limit)
+{
+    if (!is_node(item)) {
+        c->box.data[item] = bounds_intersection(c->box.data[item], limit);
+        return;
+    }
+    const CsgNode *node = &c->csg.data[~item];
+    if (!(node->flags & (CSG_INVERSE | CSG_BOUND)))
+        limit = bounds_intersection(limit, node->box);
+    for (uint32_t i = 0; i < node->n; i++)
+        cut_item(c, c->csg_child.data[node->first + i], limit);
+}
+
+void csg_cut_boxes(Compile *c)
+{
+    for (uint32_t k = 1; k < c->csg.n; k++)
+        if (c->csg.data[k].parent == 0)
+            cut_item(c, ~k, bounds_everything());
+}

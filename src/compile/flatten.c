@@ -1,0 +1,457 @@
+/* flatten.c - objects to prims: walks the tree with the composed place, texture, interior and flags in hand.
+ *
+ * What stands outermost is dissolved where POV-Ray dissolves it (08-shapes, section 10.6); the rest becomes one item, a prim
+ * or a CSG node. Also here: what a shape may call while it is compiled (world/build.h). */
+#include <string.h>
+
+#include "compile/context.h"
+
+/* ---- world/build.h ---- */
+
+double build_unit(double size)
+{
+    int exponent;
+    if (!isfinite(size) || size == 0)
+        return 1;
+    frexp(size, &exponent);
+    return ldexp(1, exponent - 1);
+}
+
+void *build_data(ShapeBuild *b, size_t bytes)
+{
+    return arena_alloc(b->arena, bytes);
+}
+
+Affine build_place(const ShapeBuild *b, double s)
+{
+    return s == 1 ? b->place : affine_then(affine_scale(vec3(s, s, s)), b->place);
+}
+
+Affine build_own_place(ShapeBuild *b)
+{
+    Compile *c = b->compile;
+    c->asked_own = true;
+    return c->shape_place;
+}
+
+uint32_t build_texture(ShapeBuild *b, const Texture *texture, const Affine *place)
+{
+    Compile *c = b->compile;
+    if (texture == NULL || c->geometry_only)
+        return 0;
+    const Object *o = b->object;
+    Affine own = affine_then(affine_of(place), affine_of(o->place));
+    uint32_t index = texture_placed(c, texture, &own, c->from->place);
+    if (c->texture.data[index].place != NULL)
+        c->asked_own = true;                   /* stands elsewhere for every copy */
+    c->all_opaque &= c->texture.data[index].opaque;
+    return index;
+}
+
+/* Room for the rounding of hits and for the tolerances of inside tests, in proportion to the coordinates. */
+static Bounds padded(Bounds b)
+{
+    static const double room = 0x1p-30;
+    for (int axis = 0; axis < 3; axis++) {
+        double lo = vec3_at(b.lo, axis), hi = vec3_at(b.hi, axis);
+        if (isnan(lo) || isnan(hi))
+            return bounds_everything();
+        double size = fmax(isfinite(lo) ? fabs(lo) : 0, isfinite(hi) ? fabs(hi) : 0);
+        vec3_set(&b.lo, axis, lo - size * room);
+        vec3_set(&b.hi, axis, hi + size * room);
+    }
+    return b;
+}
+
+static uint32_t place_index(Compile *c, const Affine *place)
+{
+    if (place->identity)
+        return 0;
+    if (c->place.n > 1 && memcmp(c->place.data[c->place.n - 1].m, place->m, sizeof place->m) == 0)
+        return c->place.n - 1;                 /* one shape of several prims */
+    array_push(c->arena, &c->place, *place);
+    return c->place.n - 1;
+}
+
+static void prim_add(Compile *c, const ShapeOps *ops, const void *data, const Affine *place, Bounds local)
+{
+    Bounds box = bounds_transformed(local, place);
+    array_push(c->arena, &c->prim, (Prim){ .ops = ops, .data = data, .place = place_index(c, place),
+                                           .material = c->shape_material, .flags = c->shape_flags });
+    array_push(c->arena, &c->box, bounds_is_empty(box) ? bounds_empty() : padded(box));
+}
+
+void build_prim(ShapeBuild *b, const void *data, const Affine *place, Bounds local)
+{
+    Compile *c = b->compile;
+    if (c->recording)
+        array_push(c->arena, &c->shared_prim, (SharedPrim){ .data = data, .place = affine_of(place), .local = local });
+    else
+        prim_add(c, b->object->ops, data, place, local);
+}
+
+/* ---- shapes ---- */
+
+static uint32_t shared_hash_of(const ShapeOps *ops, const void *params, uint32_t flags)
+{
+    uintptr_t key[3] = { (uintptr_t)ops, (uintptr_t)params, flags };
+    return hash_bytes(key, sizeof key);
+}
+
+static uint32_t shared_hash(const Compile *c, uint32_t i)
+{
+    const Shared *s = &c->shared.data[i];
+    return shared_hash_of(s->ops, s->params, s->flags);
+}
+
+static bool shared_same(const Compile *c, uint32_t i, const void *key)
+{
+    const Shared *s = &c->shared.data[i], *k = key;
+    return s->ops == k->ops && s->params == k->params && s->flags == k->flags;
+}
+
+/* Compiles the shape once for all its copies, in its own space. Returns NULL if it has to be done for each copy. */
+static const Shared *shape_shared(Compile *c, ShapeBuild *b, const Object *o)
+{
+    Shared key = { .ops = o->ops, .params = o->params, .flags = o->flags & (OBJECT_STURM | OBJECT_OPEN | OBJECT_NO_HIERARCHY) };
+    uint32_t *slot = table_find(c, &c->shares, shared_hash_of(key.ops, key.params, key.flags), &key, shared_same, shared_hash);
+    if (*slot != 0 && !c->shared.data[*slot - 1].own)
+        return &c->shared.data[*slot - 1];
+    key.first = c->shared_prim.n;
+    c->recording = true;
+    o->ops->compile(b, o->params);
+    c->recording = false;
+    key.n = c->shared_prim.n - key.first;
+    key.own = c->asked_own;
+    key.opaque = c->all_opaque;
+    if (*slot == 0) {
+        array_push(c->arena, &c->shared, key);
+        *slot = c->shared.n;
+    } else
+        c->shared.data[*slot - 1] = key;
+    return &c->shared.data[*slot - 1];
+}
+
+static void shape_compile(Compile *c, const Object *o, const Inherited *from)
+{
+    bool shared = (o->ops->flags & SHAPE_SHARED) != 0;
+    Affine in_scene = affine_then(affine_of(o->place), *from->place);
+    c->from = from;
+    c->shape_place = affine_then(in_scene, c->to_world);
+    c->asked_own = false;
+    c->all_opaque = true;
+    ShapeBuild b = { .arena = c->arena, .object = o, .accel = c->w->accel_ops,
+                     .place = shared ? affine_identity() : c->shape_place, .unit = shared ? 1 : c->unit,
+                     .diag = c->diag, .compile = c };
+    if (!shared) {
+        o->ops->compile(&b, o->params);
+        return;
+    }
+    const Shared *s = shape_shared(c, &b, o);
+    c->all_opaque = s->opaque;
+    for (uint32_t i = 0; i < s->n; i++) {
+        const SharedPrim *p = &c->shared_prim.data[s->first + i];
+        Affine place = affine_then(p->place, c->shape_place);
+        prim_add(c, o->ops, p->data, &place, p->local);
+    }
+}
+
+/* ---- what an object takes from those around it ---- */
+
+static uint32_t flags_of(const Object *o)
+{
+    return (o->flags & OBJECT_NO_SHADOW ? PRIM_NO_SHADOW : 0) | (o->flags & OBJECT_NO_IMAGE ? PRIM_NO_IMAGE : 0) |
+           (o->flags & OBJECT_NO_REFLECTION ? PRIM_NO_REFLECTION : 0) |
+           (o->flags & OBJECT_NO_RADIOSITY ? PRIM_NO_RADIOSITY : 0);
+}
+
+/* What o and its children live with. `place` becomes o's own space. */
+static Inherited inherit(Compile *c, const Object *o, const Inherited *from, Affine *place)
+{
+    Inherited in = *from;
+    *place = affine_then(affine_of(o->place), *from->place);
+    in.place = place;
+    in.lights_known = false;
+    in.inversions += (o->flags & OBJECT_INVERSE) != 0;
+    in.hollow = o->flags & OBJECT_HOLLOW_SET ? (o->flags & OBJECT_HOLLOW) != 0 : from->hollow;
+    in.double_illuminate |= (o->flags & OBJECT_DOUBLE_ILLUMINATE) != 0;
+    in.uv = (o->flags & OBJECT_UV_MAPPING) || (from->uv && o->texture == NULL);
+    if (o->kind == OBJECT_INTERSECTION || o->kind == OBJECT_DIFFERENCE)
+        in.cutaway |= (o->flags & OBJECT_CUTAWAY_TEXTURES) != 0;
+    if (c->geometry_only)
+        return in;
+    if (o->texture != NULL)
+        in.texture = texture_placed(c, o->texture, o->texture_place, from->place);
+    if (o->interior_texture != NULL)
+        in.interior_texture = texture_placed(c, o->interior_texture, o->interior_texture_place, from->place);
+    if (o->interior != NULL)
+        in.interior = interior_placed(c, o->interior, o->interior_place, from->place, in.hollow);
+    return in;
+}
+
+/* Without `interior` of their own, all leaves of one outermost object share an empty one (08-shapes, section 10.7). */
+static void share_interior(Compile *c, Inherited *in)
+{
+    if (!c->geometry_only && in->interior == 0)
+        in->interior = interior_placed(c, c->interior.data[0].interior, NULL, in->place, in->hollow);
+}
+
+static uint32_t shape_material(Compile *c, const Inherited *in, const Inherited *from)
+{
+    Material m = { .texture = in->texture, .interior_texture = in->interior_texture, .interior = in->interior,
+                   .first_group_light = in->first_group_light, .n_group_lights = in->n_group_lights };
+    Affine none = affine_identity();
+    if (m.texture == 0 && in->cutaway)
+        m.flags |= MATERIAL_CUTAWAY;
+    else if (m.texture == 0 && in->default_texture != NULL)
+        m.texture = texture_placed(c, in->default_texture, NULL, &none);
+    m.flags |= (in->uv ? MATERIAL_UV : 0) | (in->double_illuminate ? MATERIAL_DOUBLE_ILLUMINATE : 0) |
+               (in->no_global_lights ? MATERIAL_NO_GLOBAL_LIGHTS : 0) |
+               (in->interior_texture ? MATERIAL_HAS_INTERIOR_TEXTURE : 0);
+    if (from->interior == 0 && m.interior == 0 && !textures_opaque(c, &m))
+        m.interior = interior_placed(c, c->interior.data[0].interior, NULL, &none, in->hollow);
+    if (m.interior == 0)
+        m.interior = in->hollow;               /* opaque and empty: nobody asks which body it is */
+    else
+        c->interior.data[m.interior].hollow = in->hollow;      /* POV: the last leaf decides for all that share it */
+    return material_index(c, &m);
+}
+
+/* Writes the prims of a shape; returns how many. */
+static uint32_t shape_prims(Compile *c, const Object *o, const Inherited *from)
+{
+    uint32_t first = c->prim.n;
+    Affine place;
+    Inherited in = inherit(c, o, from, &place);
+    bool patch = (o->ops->flags & SHAPE_PATCH) || o->ops->inside == NULL;
+    c->shape_flags = in.prim_flags | (in.inversions % 2 && !patch ? PRIM_INVERSE : 0) | (patch ? PRIM_PATCH : 0);
+    c->shape_material = c->geometry_only ? 0 : shape_material(c, &in, from);
+    Material m = c->material.data[c->shape_material];
+    bool opaque = !c->geometry_only && textures_opaque(c, &m) && !(m.flags & MATERIAL_CUTAWAY);
+    shape_compile(c, o, from);
+    for (uint32_t i = first; i < c->prim.n && opaque && c->all_opaque; i++)
+        c->prim.data[i].flags |= PRIM_OPAQUE;
+    if (!c->all_opaque && m.interior < 2) {    /* it has see-through parts after all: a body of its own */
+        Affine none = affine_identity();
+        m.interior = interior_placed(c, c->interior.data[0].interior, NULL, &none, in.hollow);
+        uint32_t material = material_index(c, &m);
+        for (uint32_t i = first; i < c->prim.n; i++)
+            c->prim.data[i].material = material;
+    }
+    return c->prim.n - first;
+}
+
+/* ---- set operations ---- */
+
+/* POV: which kinds of CSG heed the flags of their children (08-shapes, section 10.4). */
+static uint32_t heeded_flags(const Object *child, const Object *parent)
+{
+    uint32_t flags = flags_of(child);
+    if (parent->kind == OBJECT_INTERSECTION || parent->kind == OBJECT_DIFFERENCE)
+        return flags & PRIM_NO_SHADOW;
+    if (parent->kind == OBJECT_UNION && (flags & PRIM_NO_IMAGE))
+        flags = (flags & ~(uint32_t)PRIM_NO_IMAGE) | PRIM_NO_IMAGE_LATER;
+    return flags;
+}
+
+/* Turned inside out k times: union, intersection, merge, intersection, merge... (08-shapes, section 10.3). */
+static CsgOp operation(const Object *o, uint32_t inversions, uint32_t *flags)
+{
+    bool any = o->kind == OBJECT_UNION || o->kind == OBJECT_MERGE;
+    CsgOp op = any == (inversions % 2 == 0) ? CSG_ANY : CSG_ALL;
+    if (op == CSG_ANY && !(o->kind == OBJECT_UNION && inversions == 0))
+        *flags |= CSG_MERGE;
+    if (o->kind == OBJECT_DIFFERENCE)
+        *flags |= CSG_DIFFERENCE;
+    return op;
+}
+
+static uint32_t set_operation(Compile *c, const Object *o, const Inherited *from)
+{
+    uint32_t first_prim = c->prim.n, flags = 0;
+    Affine place;
+    Inherited in = inherit(c, o, from, &place);
+    share_interior(c, &in);
+    in.in_csg = true;
+    if (in.cutaway)
+        flags |= CSG_CUTAWAY;
+    CsgOp op = operation(o, in.inversions, &flags);
+    Items items = { 0 };
+    for (uint32_t i = 0; i < o->n_child; i++) {
+        Inherited child = in;
+        child.prim_flags |= heeded_flags(o->child[i], o);
+        if (o->kind == OBJECT_DIFFERENCE && items.n > 0)
+            child.inversions++;
+        uint32_t item = flatten_item(c, o->child[i], &child);
+        if (item != NO_ITEM)
+            array_push(c->arena, &items, item);
+    }
+    if (items.n == 0 && o->n_child > 0)
+        return NO_ITEM;                        /* lights only */
+    uint32_t node = csg_node(c, op, flags, &items, first_prim);
+    c->csg.data[~node].interior = in.interior;
+    return node;
+}
+
+/* A shape as one item: its only prim, or a union of its several prims. */
+static uint32_t shape_item(Compile *c, const Object *o, const Inherited *from)
+{
+    uint32_t first = c->prim.n, n = shape_prims(c, o, from);
+    if (n == 1)
+        return first;
+    bool inverse = n > 0 && (c->prim.data[first].flags & PRIM_INVERSE);
+    Items items = { 0 };
+    for (uint32_t i = 0; i < n; i++)
+        array_push(c->arena, &items, first + i);
+    uint32_t node = csg_node(c, inverse ? CSG_ALL : CSG_ANY, 0, &items, first);
+    if (n > 0)
+        c->csg.data[~node].interior = c->material.data[c->prim.data[first].material].interior;
+    return node;
+}
+
+/* Clip and bound objects are asked, never seen. They already carry the transforms written after them, so they stand in the
+ * space around o. */
+static void helpers(Compile *c, const Object *const *list, uint32_t n, const Inherited *from, Items *out)
+{
+    Inherited helper = { .place = from->place, .prim_flags = PRIM_HELPER };
+    bool geometry_only = c->geometry_only;
+    c->geometry_only = true;
+    for (uint32_t i = 0; i < n; i++) {
+        uint32_t item = flatten_item(c, list[i], &helper);
+        if (item != NO_ITEM)
+            array_push(c->arena, out, item);
+    }
+    c->geometry_only = geometry_only;
+}
+
+static uint32_t over_body(Compile *c, uint32_t flag, const Items *items, uint32_t first_prim)
+{
+    uint32_t body = items->data[0], node = csg_node(c, CSG_ALL, flag, items, first_prim);
+    c->csg.data[~node].interior = is_node(body) ? c->csg.data[~body].interior
+                                                : c->material.data[c->prim.data[body].material].interior;
+    return node;
+}
+
+static uint32_t clipped(Compile *c, const Object *o, const Inherited *from, uint32_t body, uint32_t first_prim)
+{
+    Items items = { 0 };
+    array_push(c->arena, &items, body);
+    helpers(c, o->clipped_by, o->n_clipped_by, from, &items);
+    return over_body(c, CSG_CLIP, &items, first_prim);
+}
+
+/* Bounds that hold the whole body change nothing and are dropped. POV: an outermost shape keeps only the box of its bounds,
+ * children of CSG and CSG itself keep the objects; rays that miss them miss the body (08-shapes, section 5.1). */
+static uint32_t bounded(Compile *c, const Object *o, const Inherited *from, uint32_t body, uint32_t first_prim)
+{
+    bool by_clip = (o->flags & OBJECT_BOUNDED_BY_CLIP) != 0;
+    bool only_box = !from->in_csg && o->kind == OBJECT_SHAPE && !(o->ops->flags & SHAPE_BOUND_STAYS);
+    Bounds hull = item_hull(c, body), box = bounds_everything();
+    Items bounds = { 0 }, items = { 0 };
+    helpers(c, by_clip ? o->clipped_by : o->bounded_by, by_clip ? o->n_clipped_by : o->n_bounded_by, from, &bounds);
+    array_push(c->arena, &items, body);
+    for (uint32_t i = 0; i < bounds.n; i++) {
+        Reach r = item_reach(c, bounds.data[i]);
+        if (only_box && !r.co)
+            box = bounds_intersection(box, r.box);
+        else if (!only_box && !item_holds(c, bounds.data[i], hull))
+            array_push(c->arena, &items, bounds.data[i]);
+    }
+    bool cuts = only_box ? !(bounds_contain(box, hull.lo) && bounds_contain(box, hull.hi)) : items.n > 1;
+    if (!cuts || bounds_is_empty(hull))
+        return body;
+    uint32_t node = over_body(c, CSG_BOUND, &items, first_prim);
+    c->csg.data[~node].box = box;
+    return node;
+}
+
+uint32_t flatten_item(Compile *c, const Object *o, const Inherited *from)
+{
+    uint32_t first_prim = c->prim.n, item;
+    if (o->kind == OBJECT_LIGHT) {
+        if (!c->geometry_only && !from->lights_known)
+            light_add(c, o, from, false);
+        if (o->light->looks_like == NULL)
+            return NO_ITEM;
+        Affine place;
+        Inherited in = inherit(c, o, from, &place);
+        in.prim_flags |= PRIM_NO_SHADOW;
+        return flatten_item(c, o->light->looks_like, &in);
+    }
+    item = o->kind == OBJECT_SHAPE ? shape_item(c, o, from) : set_operation(c, o, from);
+    if (item == NO_ITEM)
+        return item;
+    if (o->n_clipped_by > 0 && !(o->kind == OBJECT_SHAPE && (o->ops->flags & SHAPE_IGNORES_CLIP)))
+        item = clipped(c, o, from, item, first_prim);
+    if (o->n_bounded_by > 0 || (o->flags & OBJECT_BOUNDED_BY_CLIP))
+        item = bounded(c, o, from, item, first_prim);
+    return item;
+}
+
+/* POV: among equal hits of one CSG the last child wins, so its prims go first. */
+uint32_t flatten_whole(Compile *c, const Object *o, const Inherited *from)
+{
+    uint32_t first_prim = c->prim.n, first_node = c->csg.n;
+    uint32_t item = flatten_item(c, o, from);
+    if (item == NO_ITEM || !is_node(item))
+        return item;
+    csg_reverse(c, first_prim, first_node);
+    return item;
+}
+
+/* ---- the outermost level ---- */
+
+/* Will the accelerator, asked for what is around a point, find the item whenever the point is inside? */
+static bool found_by_box(const Compile *c, uint32_t item)
+{
+    if (is_node(item) && (c->csg.data[~item].flags & (CSG_CLIP | CSG_BOUND)))
+        return false;                          /* asked without its clips (world_interiors_at) */
+    Reach r = item_reach(c, item);
+    return !r.co && bounds_is_finite(r.box);
+}
+
+static void body_add(Compile *c, uint32_t item)
+{
+    if (is_node(item) || !(c->prim.data[item].flags & PRIM_PATCH))
+        if (!found_by_box(c, item))
+            array_push(c->arena, &c->body, item);
+}
+
+static bool dissolves(const Object *o, const Inherited *from)
+{
+    return o->kind == OBJECT_LIGHT_GROUP ||
+           (o->kind == OBJECT_UNION && o->n_clipped_by == 0 && o->n_bounded_by == 0 &&
+            !(o->flags & (OBJECT_NO_SPLIT_UNION | OBJECT_INVERSE | OBJECT_BOUNDED_BY_CLIP)) && from->inversions == 0);
+}
+
+static void dissolve(Compile *c, const Object *o, const Inherited *from)
+{
+    Affine place;
+    Inherited in = inherit(c, o, from, &place);
+    in.prim_flags |= flags_of(o);
+    if (o->kind == OBJECT_LIGHT_GROUP && !c->geometry_only)
+        light_group(c, o, &in);
+    else
+        share_interior(c, &in);
+    for (uint32_t i = 0; i < o->n_child; i++)
+        flatten_top(c, o->child[i], &in);
+}
+
+void flatten_top(Compile *c, const Object *o, const Inherited *from)
+{
+    if (dissolves(o, from)) {
+        dissolve(c, o, from);
+        return;
+    }
+    Inherited in = *from;
+    in.prim_flags |= flags_of(o);
+    if (o->kind == OBJECT_SHAPE && o->n_clipped_by == 0 && o->n_bounded_by == 0 && !(o->flags & OBJECT_BOUNDED_BY_CLIP)) {
+        uint32_t first = c->prim.n, n = shape_prims(c, o, &in);
+        for (uint32_t i = 0; i < n; i++)
+            body_add(c, first + i);
+        return;
+    }
+    uint32_t item = flatten_whole(c, o, &in);
+    if (item != NO_ITEM)
+        body_add(c, item);
+}

@@ -1,0 +1,435 @@
+/* prim.c - a ray's questions to the World, answered by asking prims and climbing their set operations.
+ *
+ * Set operations are flattened: the accelerator sees leaves only. A shape reports its roots to a HitSink; a root of a leaf
+ * that sits in CSG climbs from parent to parent, asking the siblings whether they contain the point (08-shapes, section 10.4).
+ * The sink keeps the least hit by a total order, so neither the order nor the number of offers matters. */
+#include "world/prim.h"
+
+#include <float.h>
+#include <string.h>
+
+/* How far computed points may lie off their surface, relative to the coordinates that went into them: many times the
+ * rounding of o + t d and two transforms (a few 2^-53), so that near-double roots of quartics and coincident faces are
+ * stepped over too. On a scene of size 1 it is 2e-12. */
+static const double SURFACE_ERROR = 0x1p-39;
+
+struct HitSink {
+    const World *world;
+    const Ray *ray;                            /* in world space */
+    Ray local;                                 /* the same ray in the space of the prim being asked */
+    uint32_t prim, csg;                        /* being asked, and the node above it */
+    uint32_t skip;
+    uint32_t above;                            /* climbing ends here: the parent of the item in question, or 0 */
+    bool found, stop;
+    Hit best;                                  /* best.t is the limit: ray->t_max until something is found */
+    HitVisit *visit;                           /* each hit goes here; NULL: keep the nearest */
+    void *user;
+};
+
+/* ---- inside ---- */
+
+typedef struct Ask {                           /* "does any child but `self` answer `wanted`?" */
+    const World *world;
+    uint32_t first, self;
+    Vec3 p;
+    bool wanted, yes;
+} Ask;
+
+static bool is_node(uint32_t item)
+{
+    return (item & 0x80000000u) != 0;
+}
+
+static bool prim_inside(const World *w, const Prim *prim, Vec3 p)
+{
+    if ((prim->flags & PRIM_PATCH) || prim->ops->inside == NULL)
+        return false;                          /* POV: also when inverted */
+    return prim->ops->inside(prim->data, affine_point_back(&w->place[prim->place], p)) != ((prim->flags & PRIM_INVERSE) != 0);
+}
+
+static bool ask_child(void *user, uint32_t i, double *t_max)
+{
+    (void)t_max;
+    Ask *ask = user;
+    uint32_t item = ask->world->csg_child[ask->first + i];
+    ask->yes = item != ask->self && item_inside(ask->world, item, ask->p) == ask->wanted;
+    return ask->yes;
+}
+
+/* The accelerator holds only children that, outside their box, do not answer what is wanted here. */
+static bool some_child(const World *w, const CsgNode *node, uint32_t self, Vec3 p, bool wanted)
+{
+    for (uint32_t i = 0; i < node->n_listed; i++) {
+        uint32_t item = w->csg_child[node->first + i];
+        if (item != self && item_inside(w, item, p) == wanted)
+            return true;
+    }
+    if (node->accel == NULL)
+        return false;
+    Ask ask = { w, node->first + node->n_listed, self, p, wanted, false };
+    w->accel_ops->around(node->accel, p, ask_child, &ask);
+    return ask.yes;
+}
+
+enum { NO_ITEM = 0x7fffffff };
+
+bool item_inside(const World *w, uint32_t item, Vec3 p)
+{
+    if (!is_node(item))
+        return prim_inside(w, &w->prim[item], p);
+    const CsgNode *node = &w->csg[~item];
+    if (node->flags & CSG_BOUND)
+        return item_inside(w, w->csg_child[node->first], p);
+    if (!bounds_contain(node->box, p))
+        return (node->flags & CSG_INVERSE) != 0;
+    return node->op == CSG_ANY ? some_child(w, node, NO_ITEM, p, true) : !some_child(w, node, NO_ITEM, p, false);
+}
+
+/* ---- which hits count ---- */
+
+static bool ray_meets_box(const Ray *ray, Bounds box)
+{
+    double near = 0, far = INFINITY;
+    for (int axis = 0; axis < 3; axis++) {
+        double o = vec3_at(ray->o, axis), d = vec3_at(ray->d, axis);
+        double lo = vec3_at(box.lo, axis), hi = vec3_at(box.hi, axis);
+        if (d == 0) {
+            if (o < lo || o > hi)
+                return false;
+            continue;
+        }
+        near = fmax(near, ((d > 0 ? lo : hi) - o) / d);
+        far = fmin(far, ((d > 0 ? hi : lo) - o) / d);
+    }
+    return near <= far;
+}
+
+/* A bound is met by a ray that hits it ahead or starts inside (08-shapes, section 5.1). Without bound objects the node's box
+ * stands for them. */
+static bool ray_meets_bounds(const World *w, const CsgNode *node, const Ray *ray)
+{
+    if (node->n == 1)
+        return ray_meets_box(ray, node->box);
+    Ray ahead = { ray->o, ray->d, 0, INFINITY };
+    for (uint32_t i = 1; i < node->n; i++) {
+        uint32_t item = w->csg_child[node->first + i];
+        Hit hit;
+        if (!item_inside(w, item, ray->o) && !item_nearest(w, item, &ahead, &hit))
+            return false;
+    }
+    return true;
+}
+
+static bool node_keeps(const World *w, const CsgNode *node, uint32_t self, const Ray *ray, Vec3 p)
+{
+    if (node->flags & CSG_BOUND)
+        return ray_meets_bounds(w, node, ray);
+    if (node->op == CSG_ALL)
+        return !some_child(w, node, self, p, false);
+    return !(node->flags & CSG_MERGE) || !some_child(w, node, self, p, true);
+}
+
+static bool csg_keeps(const HitSink *sink, double t)
+{
+    const World *w = sink->world;
+    Vec3 p = ray_at(sink->ray, t);
+    uint32_t self = sink->prim;
+    for (uint32_t c = sink->csg; c != sink->above; c = w->csg[c].parent) {
+        if (!node_keeps(w, &w->csg[c], self, sink->ray, p))
+            return false;
+        self = ~c;
+    }
+    return true;
+}
+
+/* The total order of hits: nearer, then earlier in the World, then the smaller part. */
+static bool comes_before(double t, uint32_t prim, uint32_t part, const Hit *b)
+{
+    if (t != b->t)
+        return t < b->t;
+    return prim != b->prim ? prim < b->prim : part < b->part;
+}
+
+void hit_add_uv(HitSink *sink, double t, uint32_t part, double u, double v)
+{
+    if (!(t > sink->local.t_min && t <= sink->best.t) || sink->stop)
+        return;
+    if (sink->found && !comes_before(t, sink->prim, part, &sink->best))
+        return;
+    if (sink->csg != sink->above && !csg_keeps(sink, t))
+        return;
+    Hit hit = { .t = t, .u = u, .v = v, .prim = sink->prim, .part = part };
+    if (sink->visit != NULL) {
+        sink->stop = sink->visit(sink->user, &hit);
+        return;
+    }
+    sink->best = hit;
+    sink->found = true;
+}
+
+void hit_add(HitSink *sink, double t, uint32_t part)
+{
+    hit_add_uv(sink, t, part, 0, 0);
+}
+
+double hit_limit(const HitSink *sink)
+{
+    return sink->best.t;
+}
+
+/* ---- rays ---- */
+
+static void prim_test(HitSink *sink, uint32_t index)
+{
+    const World *w = sink->world;
+    const Prim *prim = &w->prim[index];
+    if (prim->flags & sink->skip)
+        return;
+    const Ray *ray = sink->ray;
+    const Affine *place = &w->place[prim->place];
+    sink->local.o = affine_point_back(place, ray->o);
+    sink->local.d = affine_vector_back(place, ray->d);
+    sink->local.t_max = sink->best.t;
+    sink->prim = index;
+    sink->csg = prim->csg;
+    prim->ops->hits(prim->data, &sink->local, sink);
+}
+
+static bool test_item(void *user, uint32_t i, double *t_max)
+{
+    (void)t_max;                               /* is sink->best.t itself */
+    HitSink *sink = user;
+    prim_test(sink, sink->world->accel_prim[i]);
+    return sink->stop;
+}
+
+static void all_prims(HitSink *sink)
+{
+    const World *w = sink->world;
+    for (uint32_t i = 0; i < w->n_unbounded && !sink->stop; i++)
+        prim_test(sink, w->unbounded[i]);
+    if (w->n_accel_prims > 0 && !sink->stop)
+        w->accel_ops->walk(w->accel, sink->ray, &sink->best.t, test_item, sink);
+}
+
+static HitSink sink_for(const World *w, const Ray *ray, uint32_t skip)
+{
+    return (HitSink){ .world = w, .ray = ray, .skip = skip, .local = { .t_min = ray->t_min }, .best = { .t = ray->t_max } };
+}
+
+bool world_nearest(const World *w, const Ray *ray, uint32_t skip, Hit *out)
+{
+    HitSink sink = sink_for(w, ray, skip);
+    all_prims(&sink);
+    *out = sink.best;
+    return sink.found;
+}
+
+bool world_each_hit(const World *w, const Ray *ray, uint32_t skip, HitVisit *visit, void *user)
+{
+    HitSink sink = sink_for(w, ray, skip);
+    sink.visit = visit;
+    sink.user = user;
+    all_prims(&sink);
+    return sink.stop;
+}
+
+bool prim_nearest(const World *w, uint32_t prim, const Ray *ray, uint32_t skip, Hit *out)
+{
+    HitSink sink = sink_for(w, ray, skip);
+    prim_test(&sink, prim);
+    *out = sink.best;
+    return sink.found;
+}
+
+static void item_test(HitSink *sink, uint32_t item)
+{
+    const World *w = sink->world;
+    if (!is_node(item)) {
+        prim_test(sink, item);
+        return;
+    }
+    const CsgNode *node = &w->csg[~item];
+    uint32_t n = node->flags & (CSG_CLIP | CSG_BOUND) ? 1 : node->n;       /* helpers show no surface */
+    for (uint32_t i = 0; i < n; i++)
+        item_test(sink, w->csg_child[node->first + i]);
+}
+
+bool item_nearest(const World *w, uint32_t item, const Ray *ray, Hit *out)
+{
+    HitSink sink = sink_for(w, ray, 0);
+    sink.above = is_node(item) ? w->csg[~item].parent : w->prim[item].csg;
+    item_test(&sink, item);
+    *out = sink.best;
+    return sink.found;
+}
+
+/* ---- the surface ---- */
+
+static void add_texture(Surface *s, uint32_t texture)
+{
+    if (s->n_textures < SURFACE_MAX_TEXTURES) {
+        s->texture[s->n_textures].texture = texture;
+        s->texture[s->n_textures].weight = 1;
+        s->n_textures++;
+    }
+}
+
+/* The textures of the bodies below `item` that contain p (08-shapes, section 10.5); clips are not asked. */
+static void cutaway_textures(const World *w, uint32_t item, Vec3 p, Surface *s)
+{
+    if (!is_node(item)) {
+        uint32_t texture = w->material[w->prim[item].material].texture;
+        if (texture != 0 && prim_inside(w, &w->prim[item], p))
+            add_texture(s, texture);
+        return;
+    }
+    const CsgNode *node = &w->csg[~item];
+    uint32_t n = node->flags & (CSG_CLIP | CSG_BOUND | CSG_DIFFERENCE) ? 1 : node->n;
+    for (uint32_t i = 0; i < n; i++)
+        cutaway_textures(w, w->csg_child[node->first + i], p, s);
+}
+
+/* A leaf without texture takes those of what it cuts, as the outermost set operation around it sees them. */
+static void cutaway_surface(const World *w, const Prim *prim, Surface *s)
+{
+    uint32_t top = 0;
+    for (uint32_t c = prim->csg; c != 0; c = w->csg[c].parent)
+        if (!(w->csg[c].flags & (CSG_CLIP | CSG_BOUND)))
+            top = c;
+    if (top == 0)
+        return;
+    s->n_textures = 0;
+    cutaway_textures(w, ~top, s->p, s);
+    for (uint32_t i = 0; i < s->n_textures; i++)
+        s->texture[i].weight = 1 / (float)s->n_textures;
+}
+
+static bool same_point(Vec3 a, Vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+static bool is_zero(Vec3 a)
+{
+    return a.x == 0 && a.y == 0 && a.z == 0;
+}
+
+/* The largest number in what was added to make o + t d: rounding errors are relative to it. */
+static double magnitude(Vec3 o, Vec3 d, double t)
+{
+    return fmax(max_abs(o), fabs(t) * max_abs(d));
+}
+
+void world_surface(const World *w, const Ray *ray, const Hit *hit, bool want_uv, Surface *out)
+{
+    const Prim *prim = &w->prim[hit->prim];
+    const Affine *place = &w->place[prim->place];
+    Vec3 o = affine_point_back(place, ray->o), d = affine_vector_back(place, ray->d);
+    Vec3 local = add(o, scaled(d, hit->t));
+    memset(out, 0, sizeof *out);
+    out->p = local;
+    out->ray_d = d;
+    out->want_uv = want_uv && (prim->ops->flags & SHAPE_HAS_UV);
+    out->error = SURFACE_ERROR * magnitude(o, d, hit->t);
+    prim->ops->surface(prim->data, hit, out);
+
+    Vec3 n = out->normal, g = is_zero(out->geometric) ? out->normal : out->geometric;
+    if (is_zero(n))
+        n = g = negated(d);                    /* the tip of a cone: any normal will do */
+    g = normalized(g);
+    Vec3 g_world = affine_normal(place, g);
+    double error = out->error / length(g_world);           /* planes a apart become planes a / |n'| apart */
+    out->error = fmax(error, SURFACE_ERROR * magnitude(ray->o, ray->d, hit->t));
+    out->geometric = normalized(g_world);
+    out->normal = normalized(affine_normal(place, normalized(n)));
+    out->p = place->identity || !same_point(out->p, local) ? affine_point(place, out->p) : ray_at(ray, hit->t);
+    if ((prim->flags & PRIM_INVERSE) && !(prim->ops->flags & SHAPE_NORMAL_STAYS))
+        out->normal = negated(out->normal);
+    out->back = dot(out->normal, ray->d) > 0;
+    if (out->back)
+        out->normal = negated(out->normal);
+    if (dot(out->geometric, ray->d) > 0)
+        out->geometric = negated(out->geometric);
+    if (want_uv && !(prim->ops->flags & SHAPE_HAS_UV))
+        out->uv = (Vec2){ out->p.x / w->unit, out->p.y / w->unit };
+    out->want_uv = want_uv;
+    if (w->material[prim->material].flags & MATERIAL_CUTAWAY)
+        cutaway_surface(w, prim, out);
+}
+
+Vec3 surface_offset(const Surface *s, Vec3 d)
+{
+    double side = dot(s->geometric, d) < 0 ? -2 : 2;       /* twice: the far side of the error, and as far again */
+    return add(s->p, scaled(s->geometric, side * s->error));
+}
+
+/* ---- bodies around a point ---- */
+
+enum { MAX_BODIES = 64 };
+
+typedef struct Bodies {
+    const World *world;
+    Vec3 p;
+    uint32_t n, item[MAX_BODIES];              /* by scene order */
+} Bodies;
+
+static uint32_t item_order(const World *w, uint32_t item)
+{
+    return is_node(item) ? w->csg[~item].first_prim : item;
+}
+
+static void add_body(Bodies *b, uint32_t item)
+{
+    uint32_t at = b->n, order = item_order(b->world, item);
+    while (at > 0 && item_order(b->world, b->item[at - 1]) > order)
+        at--;
+    if ((at > 0 && b->item[at - 1] == item) || b->n == MAX_BODIES)
+        return;
+    memmove(&b->item[at + 1], &b->item[at], (b->n - at) * sizeof b->item[0]);
+    b->item[at] = item;
+    b->n++;
+}
+
+/* Below clips and bounds: their body. */
+static uint32_t unclipped(const World *w, uint32_t item)
+{
+    while (is_node(item) && (w->csg[~item].flags & (CSG_CLIP | CSG_BOUND)))
+        item = w->csg_child[w->csg[~item].first];
+    return item;
+}
+
+/* A bounded body that contains p has a leaf whose cut box contains p. */
+static bool leaf_around(void *user, uint32_t i, double *t_max)
+{
+    (void)t_max;
+    Bodies *b = user;
+    const World *w = b->world;
+    uint32_t item = w->accel_prim[i];
+    for (uint32_t c = w->prim[item].csg; c != 0; c = w->csg[c].parent)
+        item = ~c;
+    if (item_inside(w, item, b->p))
+        add_body(b, item);
+    return false;
+}
+
+uint32_t world_interiors_at(const World *w, Vec3 p, uint32_t *interior, uint32_t max)
+{
+    Bodies b = { .world = w, .p = p };
+    for (uint32_t i = 0; i < w->n_bodies; i++)
+        if (item_inside(w, unclipped(w, w->body[i]), p))
+            add_body(&b, w->body[i]);
+    if (w->n_accel_prims > 0)
+        w->accel_ops->around(w->accel, p, leaf_around, &b);
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < b.n && n < max; i++) {
+        uint32_t item = unclipped(w, b.item[i]);
+        uint32_t found = is_node(item) ? w->csg[~item].interior : w->material[w->prim[item].material].interior;
+        uint32_t j = 0;
+        while (j < n && interior[j] != found)
+            j++;
+        if (j == n)
+            interior[n++] = found;
+    }
+    return n;
+}
