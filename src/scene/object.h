@@ -25,7 +25,8 @@ enum {
     OBJECT_CUTAWAY_TEXTURES = 1 << 11, OBJECT_NO_SPLIT_UNION = 1 << 12,
     OBJECT_UV_MAPPING = 1 << 13,
     OBJECT_GLOBAL_LIGHTS = 1 << 14,            /* light_group: members also see the global lights */
-    OBJECT_BOUNDED_BY_CLIP = 1 << 15           /* bounded_by { clipped_by } */
+    OBJECT_BOUNDED_BY_CLIP = 1 << 15,          /* bounded_by { clipped_by }: both lists are the same */
+    OBJECT_HAS_INSIDE = 1 << 16                /* a mesh with inside_vector: no patch */
 };
 
 typedef struct PhotonsBlock {

@@ -57,7 +57,7 @@ typedef struct RadiosityDef {
     bool on, normal, media, always_sample, subsurface;
     float adc_bailout, brightness, error_bound, gray_threshold, low_error_factor, maximum_reuse, minimum_reuse,
         max_sample, pretrace_start, pretrace_end;
-    int count, count_bank, nearest_count, recursion_limit;
+    int count, count_bank, nearest_count, nearest_count_adaptive, recursion_limit;
 } RadiosityDef;
 
 typedef struct PhotonsDef {
@@ -84,6 +84,8 @@ typedef struct Globals {
     bool has_background;
     RadiosityDef radiosity;
     PhotonsDef photons;
+    bool subsurface, subsurface_radiosity;     /* default samples 50, 50 */
+    int subsurface_samples_diffuse, subsurface_samples_single;
 } Globals;
 
 typedef struct Scene {

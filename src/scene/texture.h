@@ -58,6 +58,7 @@ typedef struct Pattern {
     Wave wave;
     float frequency, phase, wave_exponent;
     uint8_t noise_generator;                   /* 1..3, resolved from the scene's */
+    bool scene_noise;                          /* no noise_generator was written */
 } Pattern;
 
 typedef enum MapKind { MAP_NONE, MAP_COLOUR, MAP_PIGMENT, MAP_NORMAL, MAP_TEXTURE, MAP_SLOPE } MapKind;

@@ -20,6 +20,10 @@ typedef enum BlockKind {
  * Identifiers are not looked at: those are the caller's to copy. */
 const void *block_parse(Parser *p, BlockKind *kind);
 
+/* For #default, at its brace, and after each #version. */
+void block_default(Parser *p);
+void block_version(Parser *p);
+
 /* Of the core (symbols): the kind of the block held by the identifier, macro parameter or array element that comes next;
  * BLOCK_NONE when something else comes. Nothing is taken. */
 BlockKind parse_peek_block(Parser *p);

@@ -63,6 +63,8 @@ bool parse_transform(Parser *p, Affine *composed);     /* one translate/rotate/s
 /* At `function` or `{`: a user function with parameters x,y,z (or u,v), or a function identifier. */
 const Function *parse_function(Parser *p, const char *const *parameters, int n_parameters);
 const ImageMap *parse_image(Parser *p);        /* `[type] "file" [gamma g]...` or `function w,h {...}`; see scene/image_map.h */
+const ImageMap *parse_image_pattern(Parser *p);        /* `{ image modifiers }`, as of image_pattern */
+bool parse_at_float(Parser *p);                /* could a float begin here? (a number, or a name that holds a float) */
 
 /* Bytes of a file found by the library path, within the allowed folders. Fails if it is not there. */
 Str parse_read_file(Parser *p, Str name, Loc where);

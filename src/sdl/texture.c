@@ -1,0 +1,319 @@
+/* texture.c - texture { ... }: plain layers, patterned textures, and how they are combined (07-textures, section 1). */
+#include "sdl/blocks.h"
+
+#include <string.h>
+
+static const Pattern PATTERN_PLAIN = { .frequency = 1, .wave_exponent = 1, .noise_generator = 2 };
+
+/* Plain single layers by their parts; the newest stays. */
+static const Texture *keep(Parser *p, const Texture *t)
+{
+    if (t->kind != TEXTURE_PLAIN || t->below != NULL || t->no_bump_scale)
+        return arena_copy(parse_arena(p), t, sizeof *t);
+    const void *part[3] = { t->pigment, t->normal, t->finish };
+    uint32_t h = str_hash((Str){ (const char *)part, sizeof part }) % TEXTURE_CACHE;
+    const Texture **slot = &parse_blocks(p)->texture_cache[h];
+    if (*slot == NULL || (*slot)->pigment != t->pigment || (*slot)->normal != t->normal || (*slot)->finish != t->finish)
+        *slot = arena_copy(parse_arena(p), t, sizeof *t);
+    return *slot;
+}
+
+static Texture moved_layer(Parser *p, const Texture *from, const Moves *moves)
+{
+    Texture t = *from;
+    if (t.kind == TEXTURE_PLAIN) {
+        t.pigment = pigment_moved(p, t.pigment, moves);
+        if (t.normal != NULL)
+            t.normal = normal_moved(p, t.normal, moves);
+    } else if (t.kind != TEXTURE_UV) {
+        t.pattern = pattern_moved(p, t.pattern, moves);
+    }
+    if (t.below != NULL)
+        t.below = texture_moved(p, t.below, moves);
+    return t;
+}
+
+const Texture *texture_moved(Parser *p, const Texture *texture, const Moves *moves)
+{
+    if (texture == NULL || moves->n == 0)
+        return texture;
+    Texture t = moved_layer(p, texture, moves);
+    if (memcmp(&t, texture, sizeof t) == 0)
+        return texture;                        /* plain colours do not move */
+    return keep(p, &t);
+}
+
+/* POV: up to version 3.1, filter in all but the lowest layer was transmit. */
+static Pigment filter_to_transmit(Parser *p, const Pigment *from)
+{
+    Pigment g = *from;
+    g.colour.t += g.colour.f;
+    g.colour.f = 0;
+    if (g.map.kind == MAP_COLOUR) {
+        MapEntry *entry = arena_copy(parse_arena(p), g.map.entry, g.map.n * sizeof *entry);
+        for (uint32_t i = 0; i < g.map.n; i++) {
+            entry[i].colour.t += entry[i].colour.f;
+            entry[i].colour.f = 0;
+        }
+        g.map.entry = entry;
+    }
+    return g;
+}
+
+const Texture *texture_layered(Parser *p, const Texture *below, const Texture *above)
+{
+    if (below == NULL)
+        return above;
+    if (below->kind != TEXTURE_PLAIN)
+        parse_fail(p, "Cannot layer over a patterned texture.");
+    if (above->kind != TEXTURE_PLAIN)
+        parse_fail(p, "Cannot layer a patterned texture over another.");
+    Texture *t = arena_copy(parse_arena(p), above, sizeof *above);
+    if (parse_version(p) <= 310) {
+        Pigment g = filter_to_transmit(p, t->pigment);
+        t->pigment = arena_copy(parse_arena(p), &g, sizeof g);
+    }
+    t->below = above->below != NULL ? texture_layered(p, below, above->below) : below;
+    return t;
+}
+
+const Texture *texture_with(Parser *p, const Texture *from, const Pigment *pigment, const Normal *normal, const Finish *finish)
+{
+    Texture t = *from;
+    t.pigment = pigment;
+    t.normal = normal;
+    t.finish = finish;
+    return keep(p, &t);
+}
+
+const Texture *texture_part(Parser *p, const Texture *top)
+{
+    if (top->kind != TEXTURE_PLAIN)
+        parse_fail(p, "Cannot change the %s of a patterned texture.", parse_word(parse_peek(p)));
+    const Pigment *pigment = top->pigment;
+    const Normal *normal = top->normal;
+    const Finish *finish = top->finish;
+    int keyword = parse_peek(p);
+    parse_skip(p);
+    if (keyword == KW_FINISH) {
+        finish = finish_block(p, finish);
+    } else {
+        parse_open(p);
+        if (keyword == KW_PIGMENT)
+            pigment = pigment_body(p, pigment, USE_PIGMENT);
+        else
+            normal = normal_body(p, normal);
+        block_close(p, keyword == KW_PIGMENT ? "pigment" : "normal");
+    }
+    return texture_with(p, top, pigment, normal, finish);
+}
+
+/* ---- plain: parts and transforms in any order ---- */
+
+static const Texture *flush(Parser *p, const Texture *t, Moves *moves)
+{
+    t = texture_moved(p, t, moves);
+    moves->n = 0;
+    return t;
+}
+
+static bool take_move(Parser *p, const Texture **t, Moves *moves)
+{
+    if (moves->n == sizeof moves->move / sizeof *moves->move)
+        *t = flush(p, *t, moves);
+    if (!parse_move(p, &moves->move[moves->n]))
+        return false;
+    moves->n++;
+    return true;
+}
+
+/* A part of a texture as an identifier standing alone: `texture { MyPigment MyFinish }`. */
+static const Texture *bare_part(Parser *p, const Texture *t)
+{
+    switch (parse_peek_block(p)) {
+    case BLOCK_PIGMENT: return texture_with(p, t, parse_take_block(p, BLOCK_PIGMENT), t->normal, t->finish);
+    case BLOCK_NORMAL: return texture_with(p, t, t->pigment, parse_take_block(p, BLOCK_NORMAL), t->finish);
+    case BLOCK_FINISH: return texture_with(p, t, t->pigment, t->normal, parse_take_block(p, BLOCK_FINISH));
+    default: return NULL;
+    }
+}
+
+static const Texture *no_bump_scale(Parser *p, const Texture *from)
+{
+    Texture t = *from;
+    t.no_bump_scale = true;
+    return keep(p, &t);
+}
+
+/* Reads what there is of parts and transforms; says whether there was any. */
+static bool plain_items(Parser *p, const Texture **t)
+{
+    Moves moves;
+    moves.n = 0;
+    bool any = false;
+    for (;; any = true) {
+        int keyword = parse_peek(p);
+        const Texture *changed;
+        if (keyword == KW_PIGMENT || keyword == KW_NORMAL || keyword == KW_FINISH) {
+            *t = flush(p, *t, &moves);
+            *t = texture_part(p, *t);
+        } else if (keyword == TOK_NAME && (*t)->kind == TEXTURE_PLAIN && (changed = bare_part(p, *t)) != NULL) {
+            *t = flush(p, changed, &moves);
+        } else if (keyword == KW_NO_BUMP_SCALE) {
+            parse_skip(p);
+            *t = no_bump_scale(p, *t);
+        } else if (!take_move(p, t, &moves)) {
+            break;
+        }
+    }
+    *t = flush(p, *t, &moves);
+    return any;
+}
+
+/* ---- patterned ---- */
+
+static void texture_items(Parser *p, Texture *t, PatternDraft *d)
+{
+    for (;;) {
+        int keyword = parse_peek(p);
+        switch (keyword) {
+        case KW_TEXTURE_MAP:
+            if (t->kind != TEXTURE_AVERAGE && (d->pattern.ops == NULL || (d->pattern.ops->flags & PATTERN_LIST)))
+                parse_fail(p, "Cannot use texture_map with this pattern type.");
+            parse_skip(p);
+            t->map = parse_map(p, MAP_TEXTURE, USE_TEXTURE, t->kind == TEXTURE_AVERAGE);
+            break;
+        case KW_COLOR_MAP: case KW_PIGMENT_MAP: case KW_NORMAL_MAP: case KW_SLOPE_MAP: case KW_DENSITY_MAP:
+        case KW_QUICK_COLOR: case KW_BUMP_SIZE:
+            map_misplaced(p, keyword);
+        case KW_NO_BUMP_SCALE:
+            parse_skip(p);
+            t->no_bump_scale = true;
+            break;
+        default:
+            if (!pattern_modifier(p, d))
+                return;
+        }
+    }
+}
+
+static const Texture *close_patterned(Parser *p, Texture *t, PatternDraft *d)
+{
+    texture_items(p, t, d);
+    if (t->map.n == 0)
+        parse_fail(p, "Patterned texture must have texture_map.");
+    t->pattern = pattern_close(p, d);
+    if (t->pattern == NULL)
+        t->pattern = &PATTERN_PLAIN;
+    return arena_copy(parse_arena(p), t, sizeof *t);
+}
+
+static void add_texture(Parser *p, Entries *list)
+{
+    array_push(parse_arena(p), list, (MapEntry){ .key = (float)list->n, .texture = parse_texture(p) });
+}
+
+static void tiles(Parser *p, Texture *t)
+{
+    Entries list = { 0 };
+    parse_open(p);
+    while (parse_peek(p) == KW_TEXTURE)
+        add_texture(p, &list);
+    while (parse_accept(p, KW_TILE2))
+        while (parse_peek(p) == KW_TEXTURE)
+            add_texture(p, &list);
+    block_close(p, "tiles");
+    if (list.n != 2)
+        parse_fail(p, "tiles needs two textures: tiles { texture { ... } tile2 texture { ... } }");
+    t->map = (BlendMap){ MAP_TEXTURE, list.n, list.data };
+}
+
+static void material_map(Parser *p, Texture *t)
+{
+    Entries list = { 0 };
+    parse_open(p);
+    t->image = image_items(p, IMAGE_INDEX, NULL);
+    while (parse_peek(p) == KW_TEXTURE) {
+        add_texture(p, &list);
+        parse_comma(p);
+    }
+    if (list.n == 0)
+        parse_expected(p, "texture");
+    block_close(p, "material_map");
+    t->map = (BlendMap){ MAP_TEXTURE, list.n, list.data };
+}
+
+/* NULL if the next token begins no patterned texture. */
+static const Texture *patterned(Parser *p)
+{
+    const Texture *standard = parse_blocks(p)->default_texture;
+    Texture t = { .kind = TEXTURE_PATTERN, .pigment = standard->pigment, .finish = standard->finish, .loc = parse_loc(p) };
+    PatternDraft d;
+    int keyword = parse_peek(p);
+    const PatternOps *ops = NULL;
+    pattern_begin(&d, NULL);
+    switch (keyword) {
+    case KW_TILES: parse_skip(p); t.kind = TEXTURE_TILES; tiles(p, &t); break;
+    case KW_MATERIAL_MAP: parse_skip(p); t.kind = TEXTURE_MATERIAL_MAP; material_map(p, &t); break;
+    case KW_AVERAGE: parse_skip(p); t.kind = TEXTURE_AVERAGE; break;
+    case KW_UV_MAPPING: {
+        parse_skip(p);
+        MapEntry *inner = arena_new(parse_arena(p), MapEntry);
+        inner->texture = texture_body(p);
+        t.kind = TEXTURE_UV;
+        t.pattern = &PATTERN_PLAIN;
+        t.map = (BlendMap){ MAP_TEXTURE, 1, inner };
+        return arena_copy(parse_arena(p), &t, sizeof t);
+    }
+    default:
+        ops = pattern_row(p, keyword);
+        if (ops == NULL)
+            return NULL;
+        parse_skip(p);
+        pattern_choose(p, &d, ops);
+        if (ops->flags & PATTERN_LIST) {
+            t.map = parse_pattern_list(p, ops, USE_TEXTURE);
+            pattern_list_end(p, ops);
+        }
+    }
+    return close_patterned(p, &t, &d);
+}
+
+/* A patterned identifier takes only transforms and no_bump_scale. */
+static const Texture *patterned_items(Parser *p, const Texture *t)
+{
+    Moves moves;
+    moves.n = 0;
+    for (;;) {
+        if (parse_accept(p, KW_NO_BUMP_SCALE))
+            t = no_bump_scale(p, t);
+        else if (!take_move(p, &t, &moves))
+            return flush(p, t, &moves);
+    }
+}
+
+const Texture *texture_body(Parser *p)
+{
+    const Texture *t = parse_take_block(p, BLOCK_TEXTURE);
+    if (t != NULL && t->kind != TEXTURE_PLAIN)
+        return patterned_items(p, t);
+    if (t != NULL) {
+        plain_items(p, &t);
+        return t;
+    }
+    t = parse_blocks(p)->default_texture;
+    if (plain_items(p, &t))
+        return t;
+    const Texture *other = patterned(p);
+    return other != NULL ? other : t;
+}
+
+const Texture *parse_texture(Parser *p)
+{
+    if (!parse_accept(p, KW_TEXTURE))
+        parse_expect(p, KW_INTERIOR_TEXTURE);
+    parse_open(p);
+    const Texture *t = texture_body(p);
+    block_close(p, "texture");
+    return t;
+}
