@@ -1,0 +1,46 @@
+/* carry.h - normals through the transforms of a chain, inward and back (07-textures, section 5.1). */
+#ifndef TEXTURE_CARRY_H
+#define TEXTURE_CARRY_H
+
+#include "texture/texture.h"
+
+static inline bool chain_moves(const Affine *place, const WarpChain *chain)
+{
+    if (place != NULL && !place->identity)
+        return true;
+    for (uint32_t i = 0; chain != NULL && i < chain->n; i++)
+        if (chain->warp[i].kind == WARP_TRANSFORM)
+            return true;
+    return false;
+}
+
+/* keep_length: no_bump_scale, the normal is not made a unit vector on the way. */
+static inline Vec3 carry_in(const Affine *place, const WarpChain *chain, Vec3 n, bool keep_length)
+{
+    if (!chain_moves(place, chain))
+        return n;
+    if (!keep_length)
+        n = normalized(n);
+    if (place != NULL)
+        n = affine_normal_back(place, n);
+    for (uint32_t i = 0; chain != NULL && i < chain->n; i++)
+        if (chain->warp[i].kind == WARP_TRANSFORM)
+            n = affine_normal_back(&chain->warp[i].transform, n);
+    return keep_length ? n : normalized(n);
+}
+
+static inline Vec3 carry_out(const Affine *place, const WarpChain *chain, Vec3 n, bool keep_length)
+{
+    if (!chain_moves(place, chain))
+        return n;
+    if (!keep_length)
+        n = normalized(n);
+    for (uint32_t i = chain != NULL ? chain->n : 0; i-- > 0;)
+        if (chain->warp[i].kind == WARP_TRANSFORM)
+            n = affine_normal(&chain->warp[i].transform, n);
+    if (place != NULL)
+        n = affine_normal(place, n);
+    return keep_length ? n : normalized(n);
+}
+
+#endif

@@ -1,0 +1,229 @@
+/* image_map.c - points to image positions, and interpolation between pixels.
+ *
+ * Mapping and weights are those of 07-textures, sections 6.2 and 6.3: pixel (i,j) covers [i,i+1) x [j,j+1), and blends
+ * work on the image's stored form, all five components at once. */
+#include "texture/sample.h"
+
+#include "image/image.h"
+
+/* POV: added to every position, so that points on the edge between two pixels fall on one side. */
+static const double NUDGE = 1e-10;
+
+static double angle_about_y(double x, double z)
+{
+    if (z == 0)
+        return x > 0 ? 0 : PI;
+    double angle = acos(fmax(-1, fmin(1, x / sqrt(x * x + z * z))));
+    return z < 0 ? 2 * PI - angle : angle;
+}
+
+/* (u,v) in pixels, v upwards, before the offset. */
+static bool project(const ImageMap *map, Vec3 p, double width, double height, double *u, double *v)
+{
+    double around = sqrt(p.x * p.x + p.z * p.z);
+    switch (map->map_type) {
+    case 1: {
+        double r = length(p);
+        if (r == 0)
+            return false;
+        *u = around == 0 ? 0 : angle_about_y(p.x, p.z) / (2 * PI) * width;
+        *v = (0.5 + asin(fmax(-1, fmin(1, p.y / r))) / PI) * height;
+        return true;
+    }
+    case 2:
+        if (around == 0 || (map->once && (p.y < 0 || p.y > 1)))
+            return false;
+        *u = angle_about_y(p.x, p.z) / (2 * PI) * width;
+        *v = fmod(p.y * height, height);
+        return true;
+    case 5: {
+        if (around == 0)
+            return false;
+        double out = around - 1, m = sqrt(out * out + p.y * p.y);
+        double phi = m == 0 ? 0 : acos(fmax(-1, fmin(1, -out / m)));
+        *u = angle_about_y(p.x, p.z) / (2 * PI) * width;
+        *v = (p.y > 0 ? 2 * PI - phi : phi) / (2 * PI) * height;
+        return true;
+    }
+    default:
+        if (map->once && (p.x < 0 || p.x > 1 || p.y < 0 || p.y > 1))
+            return false;
+        *u = fmod(p.x * width, width);
+        *v = fmod(p.y * height, height);
+        return true;
+    }
+}
+
+/* Into [0, size). */
+static double wrapped(double v, double size)
+{
+    if (v >= 0 && v < size)
+        return v;
+    v = fmod(v, size);
+    if (v < 0)
+        v += size;
+    return v < size ? v : 0;                   /* a tiny negative remainder rounds up to size */
+}
+
+bool image_spot(const ImageMap *map, Vec3 p, ImageSpot *out)
+{
+    double width = map->image->width, height = map->image->height, u, v;
+    if (!vec3_finite(p) || !project(map, p, width * map->repeat.u, height * map->repeat.v, &u, &v))
+        return false;
+    u += -width * map->offset.u + NUDGE;
+    v += -height * map->offset.v + NUDGE;
+    if (map->once && (u >= width || v >= height || u < 0 || v < 0))
+        return false;
+    *out = (ImageSpot){ wrapped(u, width), wrapped(-v, height) };
+    return true;
+}
+
+/* ---- pixels ---- */
+
+typedef struct Five { double c[5]; } Five;
+
+static int wrapped_index(int i, int size, bool clamps)
+{
+    if (i >= 0 && i < size)
+        return i;
+    if (clamps)
+        return i < 0 ? 0 : size - 1;
+    i %= size;
+    return i < 0 ? i + size : i;
+}
+
+/* The colour with the map's filter and transmit (section 6.5). */
+static Colour pixel(const ImageMap *map, int x, int y)
+{
+    const Image *im = map->image;
+    x = wrapped_index(x, im->width, map->once);
+    y = wrapped_index(y, im->height, map->once);
+    Colour c = image_pixel(im, x, y);
+    if (im->indexed) {
+        int i = image_index(im, x, y);
+        if (map->palette_filter != NULL)
+            c.f = map->palette_filter[i];
+        if (map->palette_transmit != NULL)
+            c.t = map->palette_transmit[i];
+    } else {
+        c.f += map->filter_all;
+        c.t += map->transmit_all;
+    }
+    return c;
+}
+
+static Five fetch(const ImageMap *map, int x, int y, bool index)
+{
+    if (index)
+        return (Five){ { image_index(map->image, wrapped_index(x, map->image->width, map->once),
+                                     wrapped_index(y, map->image->height, map->once)) } };
+    Colour c = pixel(map, x, y);
+    return (Five){ { (double)c.r, (double)c.g, (double)c.b, (double)c.f, (double)c.t } };
+}
+
+static void add_weighted(Five *sum, Five v, double weight)
+{
+    for (int i = 0; i < 5; i++)
+        sum->c[i] += v.c[i] * weight;
+}
+
+/* Four pixels round (i,j): weights for (i,j), (i-1,j), (i,j-1), (i-1,j-1). */
+static Five blend4(const ImageMap *map, int i, int j, const double weight[4], bool index)
+{
+    Five sum = { { 0 } };
+    for (int k = 0; k < 4; k++)
+        add_weighted(&sum, fetch(map, i - (k & 1), j - (k >> 1), index), weight[k]);
+    return sum;
+}
+
+static Five bilinear(const ImageMap *map, int i, int j, double p, double q, bool index)
+{
+    const double weight[4] = { p * q, (1 - p) * q, p * (1 - q), (1 - p) * (1 - q) };
+    return blend4(map, i, j, weight, index);
+}
+
+/* Exactly on a corner one weight is infinite: that pixel alone. */
+static Five by_distance(const ImageMap *map, int i, int j, double p, double q, bool index)
+{
+    double weight[4] = { (1 - p) * (1 - p) + (1 - q) * (1 - q), p * p + (1 - q) * (1 - q), (1 - p) * (1 - p) + q * q,
+                         p * p + q * q };
+    double total = 0;
+    for (int k = 0; k < 4; k++) {
+        if (weight[k] < 1e-300)
+            return fetch(map, i - (k & 1), j - (k >> 1), index);
+        weight[k] = 1 / weight[k];
+        total += weight[k];
+    }
+    for (int k = 0; k < 4; k++)
+        weight[k] /= total;
+    return blend4(map, i, j, weight, index);
+}
+
+static void cubic_weights(double p, double out[4])
+{
+    double r = 1 - p;
+    out[0] = -p * r * r / 2;
+    out[1] = r * (r * (3 * p + 1) + 1) / 2;
+    out[2] = p * (p * (3 * r + 1) + 1) / 2;
+    out[3] = -r * p * p / 2;
+}
+
+static Five bicubic(const ImageMap *map, int i, int j, double p, double q, bool index)
+{
+    double wx[4], wy[4];
+    cubic_weights(p, wx);
+    cubic_weights(q, wy);
+    Five sum = { { 0 } };
+    for (int l = 0; l < 4; l++)
+        for (int k = 0; k < 4; k++)
+            add_weighted(&sum, fetch(map, i - 2 + k, j - 2 + l, index), wx[k] * wy[l]);
+    return sum;
+}
+
+static Five interpolated(const ImageMap *map, ImageSpot at, bool index)
+{
+    double x = at.x + 0.5, y = at.y + 0.5;
+    int i = (int)x, j = (int)y;
+    double p = x - i, q = y - j;
+    switch (map->interpolate) {
+    case 2: return bilinear(map, i, j, p, q, index);
+    case 3: return bicubic(map, i, j, p, q, index);
+    default: return by_distance(map, i, j, p, q, index);
+    }
+}
+
+static ImageSpot inside_image(const Image *im, ImageSpot at)
+{
+    return (ImageSpot){ wrapped(at.x, im->width), wrapped(at.y, im->height) };
+}
+
+Colour image_sample(const ImageMap *map, ImageSpot at)
+{
+    at = inside_image(map->image, at);
+    Colour c;
+    if (map->interpolate == 0) {
+        c = pixel(map, (int)at.x, (int)at.y);
+    } else {
+        Five v = interpolated(map, at, false);
+        c = (Colour){ (float)v.c[0], (float)v.c[1], (float)v.c[2], (float)v.c[3], (float)v.c[4] };
+    }
+    float alpha = 1 - c.t;
+    if (map->premultiplied && alpha > 1e-10f) {
+        c.r /= alpha;
+        c.g /= alpha;
+        c.b /= alpha;
+    }
+    return c;
+}
+
+double image_sample_index(const ImageMap *map, ImageSpot at)
+{
+    at = inside_image(map->image, at);
+    return map->interpolate == 0 ? image_index(map->image, (int)at.x, (int)at.y) : interpolated(map, at, true).c[0];
+}
+
+int image_spot_index(const ImageMap *map, ImageSpot at)
+{
+    at = inside_image(map->image, at);
+    return image_index(map->image, (int)at.x, (int)at.y);
+}

@@ -1,0 +1,108 @@
+/* pigment.c - the colour of a pigment at a point (07-textures, section 4), and whether it ever lets light through. */
+#include "image/image.h"
+#include "pattern/pattern.h"
+#include "scene/image_map.h"
+#include "texture/map.h"
+#include "texture/sample.h"
+#include "texture/texture.h"
+
+/* POV: below this, filter and transmit count as none. */
+static const float CLEAR = 1e-10f;
+
+static const MapEntry grey_map[] = { { .key = 0, .colour = { 0, 0, 0, 0, 0 } }, { .key = 1, .colour = { 1, 1, 1, 0, 0 } } };
+
+/* The colours of a pattern without a map. */
+static BlendMap map_of(const Pigment *pigment)
+{
+    if (pigment->map.n > 0)
+        return pigment->map;
+    const PatternOps *ops = pigment->pattern->ops;
+    if (ops->default_map != NULL)
+        return (BlendMap){ MAP_COLOUR, ops->n_default_map, ops->default_map };
+    return (BlendMap){ MAP_COLOUR, 2, grey_map };
+}
+
+static Colour entry_colour(const BlendMap *map, const MapEntry *entry, Vec3 p, const TextureContext *at, bool *found)
+{
+    return map->kind == MAP_COLOUR ? entry->colour : pigment_colour(entry->pigment, p, at, found);
+}
+
+static Colour patterned(const Pigment *pigment, Vec3 p, const TextureContext *at, bool *found)
+{
+    Vec3 q = pattern_point(pigment->pattern, p);
+    BlendMap map = map_of(pigment);
+    MapSpot spot = map_find(map.entry, map.n, pattern_value(pigment->pattern, q, at));
+    Colour to = entry_colour(&map, spot.to, q, at, found);
+    if (spot.from == NULL)
+        return to;
+    return colour_lerp(entry_colour(&map, spot.from, q, at, found), to, (float)spot.t);
+}
+
+static Colour average(const Pigment *pigment, Vec3 p, const TextureContext *at, bool *found)
+{
+    Vec3 q = pigment->pattern != NULL ? pattern_point(pigment->pattern, p) : p;
+    Colour sum = { 0 };
+    for (uint32_t i = 0; i < pigment->map.n; i++) {
+        const MapEntry *e = &pigment->map.entry[i];
+        sum = colour_add(sum, colour_scaled(entry_colour(&pigment->map, e, q, at, found), e->key));
+    }
+    double total = map_total(&pigment->map);
+    return total != 0 ? colour_scaled(sum, (float)(1 / total)) : sum;
+}
+
+static Colour image(const Pigment *pigment, Vec3 p, bool *found)
+{
+    ImageSpot spot;
+    Vec3 q = pigment->pattern != NULL ? pattern_point(pigment->pattern, p) : p;
+    if (image_spot(pigment->image, q, &spot))
+        return image_sample(pigment->image, spot);
+    if (found != NULL)
+        *found = false;
+    return (Colour){ 1, 1, 1, 0, 1 };
+}
+
+static const TextureContext nowhere = { .quality = 9 };
+
+Colour pigment_colour(const Pigment *pigment, Vec3 p, const TextureContext *at, bool *found)
+{
+    if (at == NULL)
+        at = &nowhere;
+    if (pigment->has_quick && at->quality <= 5)
+        return pigment->quick;
+    switch (pigment->kind) {
+    case PIGMENT_PLAIN: return pigment->colour;
+    case PIGMENT_PATTERN: return patterned(pigment, p, at, found);
+    case PIGMENT_AVERAGE: return average(pigment, p, at, found);
+    case PIGMENT_IMAGE: return image(pigment, p, found);
+    case PIGMENT_UV: return pigment_colour(pigment->map.entry[0].pigment, vec3(at->uv.u, at->uv.v, 0), at, found);
+    }
+    return pigment->colour;
+}
+
+static bool clear(Colour c)
+{
+    return fabsf(c.f) > CLEAR || fabsf(c.t) > CLEAR;
+}
+
+static bool map_is_opaque(const BlendMap *map)
+{
+    for (uint32_t i = 0; i < map->n; i++)
+        if (map->kind == MAP_COLOUR ? clear(map->entry[i].colour) : !pigment_is_opaque(map->entry[i].pigment))
+            return false;
+    return true;
+}
+
+bool pigment_is_opaque(const Pigment *pigment)
+{
+    if (pigment->has_quick && clear(pigment->quick))
+        return false;
+    switch (pigment->kind) {
+    case PIGMENT_PLAIN: return !clear(pigment->colour);
+    case PIGMENT_IMAGE: return !pigment->image->has_transparency;
+    case PIGMENT_PATTERN: {
+        BlendMap map = map_of(pigment);
+        return map_is_opaque(&map);
+    }
+    default: return map_is_opaque(&pigment->map);
+    }
+}
