@@ -3,7 +3,8 @@
 
 #include <stddef.h>
 
-#define SHAPES(ROW)
+#define SHAPES(ROW) \
+    ROW(box) ROW(cone) ROW(cylinder) ROW(disc) ROW(plane) ROW(smooth_triangle) ROW(sphere) ROW(torus) ROW(triangle)
 
 #define PATTERNS(ROW) \
     ROW(bozo) ROW(spotted) ROW(bumps) ROW(dents) ROW(granite) ROW(wrinkles) ROW(agate) ROW(marble) \

@@ -44,9 +44,10 @@ struct ShapeOps {
     void (*hits)(const void *shape, const Ray *ray, HitSink *sink);
     bool (*inside)(const void *shape, Vec3 p);                 /* NULL: never inside */
     void (*surface)(const void *shape, const Hit *hit, Surface *out);  /* for the winner only; see Surface */
-    /* The box that min_extent and max_extent report, in the shape's own space (08-shapes 4.1); unbounded sides are INFINITY
-     * (the caller turns them into POV-Ray's 1e10). It must hold the shape: the scale of the World is chosen by it. */
-    Bounds (*extent)(const void *params);
+    /* The box that min_extent and max_extent report (08-shapes 4.1), in the space `place` takes the shape's own to: some
+     * shapes swallow transforms, others hull the corners of a box in a frame of their own (2.2). Unbounded sides are
+     * INFINITY (the caller turns them into POV-Ray's 1e10). It must hold the shape: the scale of the World is chosen by it. */
+    Bounds (*extent)(const void *params, const Affine *place);
 };
 
 /* Where a pattern is asked. Only `p` is always there. */

@@ -1,0 +1,255 @@
+/* roots.c - real roots by Descartes' rule of signs in the Bernstein basis; see roots.h.
+ *
+ * On an interval mapped to [0, 1] the polynomial is written as a weighted mean of n + 1 coefficients. The number of their
+ * sign changes is the number of roots, or more by an even number: none means none, one means one, and otherwise de
+ * Casteljau's halving makes two smaller problems (Lane and Riesenfeld, Bounds on a Polynomial, 1981). All steps are
+ * means, so rounding stays at the size of the coefficients: a Sturm chain, which divides remainders, loses everything
+ * at these degrees. A single root is then closed in by Newton's steps kept inside a shrinking bracket.
+ *
+ * Two roots closer than about the square root of the rounding error cannot be told from a touch: they count as one. */
+#include "math/roots.h"
+
+#include <float.h>
+#include <limits.h>
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+enum { MAX = ROOTS_MAX_DEGREE, DEPTH = 56, BUDGET = 4096 };
+
+int roots_quadratic(double a, double h, double c, double root[2])
+{
+    if (a == 0) {
+        if (h == 0)
+            return 0;
+        root[0] = -c / (2 * h);
+        return 1;
+    }
+    double d = h * h - a * c;
+    if (d < 0)
+        return 0;
+    if (d == 0) {
+        root[0] = -h / a;
+        return 1;
+    }
+    double q = -(h + copysign(sqrt(d), h)), r0 = q / a, r1 = c / q;
+    root[0] = fmin(r0, r1);
+    root[1] = fmax(r0, r1);
+    return 2;
+}
+
+typedef struct Search {
+    double a[MAX + 1];                         /* on [0, 1], power basis */
+    int n;
+    double noise;                              /* values below are rounding */
+    double lo, width;                          /* x = lo + width u */
+    double *root;
+    int found, budget;
+    double touch;                              /* where the last touch was, in u */
+} Search;
+
+static void report(Search *s, double u)
+{
+    double x = s->lo + s->width * u;
+    if (s->found < s->n && (s->found == 0 || s->root[s->found - 1] != x))
+        s->root[s->found++] = x;
+}
+
+/* A place where all is rounding: with its neighbours of the same kind it makes one root. */
+static void report_touch(Search *s, double u0, double size)
+{
+    if (u0 - s->touch > 3 * size)
+        report(s, u0 + 0.5 * size);
+    s->touch = u0 + size;
+}
+
+static int sign_changes(const double *b, int n)
+{
+    int changes = 0;
+    bool known = false, negative = false;
+    for (int i = 0; i <= n; i++) {
+        if (b[i] == 0)
+            continue;
+        bool now = b[i] < 0;
+        changes += known && now != negative;
+        known = true;
+        negative = now;
+    }
+    return changes;
+}
+
+/* One root between u0 and u1: falling says on which side of it the values are positive. */
+static double closed_in(const Search *s, double u0, double u1, bool falling)
+{
+    double u = 0.5 * (u0 + u1), last = u1 - u0;
+    for (int i = 0; i < 100; i++) {
+        double f = s->a[s->n], slope = 0;
+        for (int k = s->n - 1; k >= 0; k--) {
+            slope = slope * u + f;
+            f = f * u + s->a[k];
+        }
+        if (f == 0)
+            return u;
+        if ((f > 0) == falling)
+            u0 = u;
+        else
+            u1 = u;
+        double next = u - f / slope;
+        if (!(next > u0 && next < u1) || fabs(next - u) > 0.5 * last)
+            next = 0.5 * (u0 + u1);            /* Newton leaves the bracket or dawdles: halve it */
+        last = fabs(next - u);
+        if (next == u || last <= 0.5 * DBL_EPSILON * fabs(u))
+            return next;
+        u = next;
+    }
+    return u;
+}
+
+static void halve(const double *b, int n, double *left, double *right)
+{
+    memcpy(right, b, (size_t)(n + 1) * sizeof *b);
+    for (int j = 0; j <= n; j++) {
+        left[j] = right[0];
+        for (int i = 0; i < n - j; i++)
+            right[i] = 0.5 * (right[i] + right[i + 1]);
+    }
+}
+
+static bool is_noise(const Search *s, const double *b)
+{
+    for (int i = 0; i <= s->n; i++)
+        if (fabs(b[i]) > s->noise)
+            return false;
+    return true;
+}
+
+/* Roots in [u0, u0 + size), and at 1 if the interval ends there. */
+static void isolate(Search *s, const double *b, double u0, double size, int depth)
+{
+    int changes = sign_changes(b, s->n);
+    if (b[0] == 0) {
+        if (u0 - s->touch > 3 * size)
+            report(s, u0);
+        s->touch = u0;
+    }
+    if (changes == 1) {
+        int first = 0, last = s->n;
+        while (b[first] == 0)
+            first++;
+        while (b[last] == 0)
+            last--;
+        report(s, closed_in(s, u0, u0 + size, b[first] > 0));
+    } else if (changes > 1) {
+        if (depth == DEPTH || is_noise(s, b) || --s->budget < 0)
+            report_touch(s, u0, size);
+        else {
+            double left[MAX + 1], right[MAX + 1];
+            halve(b, s->n, left, right);
+            isolate(s, left, u0, 0.5 * size, depth + 1);
+            isolate(s, right, u0 + 0.5 * size, 0.5 * size, depth + 1);
+        }
+    }
+    if (b[s->n] == 0 && u0 + size == 1)
+        report(s, 1);
+}
+
+/* s->a holds the polynomial on [0, 1]. */
+static void search(Search *s)
+{
+    double b[MAX + 1], choose = 1, largest = 0, total = 0;
+    int n = s->n;
+    for (int k = 0; k <= n; k++) {             /* divided by n over k, then summed as Pascal's triangle */
+        b[k] = s->a[k] / choose;
+        total += fabs(s->a[k]);
+        choose = choose * (n - k) / (k + 1);
+    }
+    for (int j = 1; j <= n; j++)
+        for (int i = n; i >= j; i--)
+            b[i] += b[i - 1];
+    for (int i = 0; i <= n; i++)
+        largest = fmax(largest, fabs(b[i]));
+    s->noise = 4 * DBL_EPSILON * total;
+    s->budget = BUDGET;
+    s->touch = -INFINITY;
+    if (largest <= s->noise)
+        return;                                /* vanishes throughout, or cannot be told from that */
+    isolate(s, b, 0, 1, 0);
+}
+
+int roots_between(const double *c, int n, double lo, double hi, double *root)
+{
+    while (n > 0 && c[n] == 0)
+        n--;
+    if (n < 1 || n > MAX || !(lo <= hi))
+        return 0;
+    Search s = { .n = n, .lo = lo, .width = hi - lo, .root = root };
+    memcpy(s.a, c, (size_t)(n + 1) * sizeof *c);
+    if (lo != 0)                               /* shifted to lo by repeated division */
+        for (int j = 0; j < n; j++)
+            for (int k = n - 1; k >= j; k--)
+                s.a[k] += lo * s.a[k + 1];
+    double power = s.width;
+    for (int k = 1; k <= n; k++) {
+        s.a[k] *= power;
+        power *= s.width;
+    }
+    search(&s);
+    return s.found;
+}
+
+/* Appends the roots y in (0, 1] of the polynomial with coefficients first[k * step], as x = sign * y or sign / y. */
+static int append(const double *first, int step, int n, bool inverse, double sign, double *found, int total)
+{
+    Search s = { .n = n, .width = 1 };
+    double root[MAX];
+    s.root = root;
+    for (int k = 0; k <= n; k++)
+        s.a[k] = first[k * step];
+    search(&s);
+    for (int i = 0; i < s.found; i++)
+        if (root[i] > 0)
+            found[total++] = sign * (inverse ? 1 / root[i] : root[i]);
+    return total;
+}
+
+/* The line in four pieces: [-B, 0] and [0, B] as they are, and beyond by x -> 1/x, where B is a power of two at which the
+ * coefficients balance. All four use the same numbers, so nothing is shifted and nothing is lost. */
+int roots_all(const double *c, int n, double *root)
+{
+    while (n > 0 && c[n] == 0)
+        n--;
+    if (n < 1 || n > MAX)
+        return 0;
+    double most = -INFINITY;                   /* log2 of half a bound of the roots (Fujiwara) */
+    for (int k = 0; k < n; k++)
+        if (c[k] != 0)
+            most = fmax(most, (double)(ilogb(c[k]) - ilogb(c[n])) / (n - k));
+    int e = isfinite(most) ? (int)floor(most) : 0, top = INT_MIN, total = 0;
+    double a[MAX + 1], mirrored[MAX + 1], found[4 * MAX + 1];
+    for (int k = 0; k <= n; k++)
+        if (c[k] != 0 && ilogb(c[k]) + e * k > top)
+            top = ilogb(c[k]) + e * k;
+    for (int k = 0; k <= n; k++) {
+        a[k] = ldexp(c[k], e * k - top);
+        mirrored[k] = k & 1 ? -a[k] : a[k];
+    }
+    if (a[0] == 0)
+        found[total++] = 0;
+    total = append(mirrored, 1, n, false, -1, found, total);
+    total = append(mirrored + n, -1, n, true, -1, found, total);
+    total = append(a, 1, n, false, 1, found, total);
+    total = append(a + n, -1, n, true, 1, found, total);
+    int kept = 0;
+    for (int i = 0; i < total; i++) {          /* sorted by insertion; -1 and 1 were in two pieces */
+        double x = ldexp(found[i], e);
+        int at = kept;
+        while (at > 0 && root[at - 1] > x)
+            at--;
+        if ((at > 0 && root[at - 1] == x) || kept == n)
+            continue;
+        memmove(root + at + 1, root + at, (size_t)(kept - at) * sizeof *root);
+        root[at] = x;
+        kept++;
+    }
+    return kept;
+}

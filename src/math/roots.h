@@ -1,0 +1,18 @@
+/* roots.h - real roots of polynomials with real coefficients: c[k] belongs to x^k, lowest power first. */
+#ifndef MATH_ROOTS_H
+#define MATH_ROOTS_H
+
+enum { ROOTS_MAX_DEGREE = 35 };
+
+/* a x^2 + 2 h x + c = 0, ascending, without cancellation; a double root counts once. Linear if a is 0. */
+int roots_quadratic(double a, double h, double c, double root[2]);
+
+/* Roots in [lo, hi], ascending, at most n of them; a root of even order (a touch) once, an odd one once. The whole of
+ * [lo, hi] is looked at, so pass the interval in which the shape can be, and put the origin of x near it.
+ * A polynomial that vanishes throughout has none. */
+int roots_between(const double *c, int n, double lo, double hi, double *root);
+
+/* Roots on the whole line, ascending. */
+int roots_all(const double *c, int n, double *root);
+
+#endif

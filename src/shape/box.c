@@ -1,0 +1,106 @@
+/* box.c - box { corner, corner }: three slabs. A hit's part is its side: axis + 3 for the high one; entries come after
+ * exits, so that a box without thickness shows its far side, as POV-Ray's does. */
+#include "sdl/parse.h"
+#include "shape/shape.h"
+
+typedef struct { Vec3 a, b; } Params;
+typedef struct { double side[2][3]; } Box;                 /* low, high */
+
+enum { ENTRY = 8 };
+
+static void parse(Parser *p, void *params)
+{
+    Params *box = params;
+    Vec3 a = parse_vec3(p), b = parse_next_vec3(p);
+    box->a = shape_min(a, b);
+    box->b = shape_max(a, b);
+}
+
+static void compile(ShapeBuild *b, const void *params)
+{
+    const Params *box = params;
+    double unit = shape_unit(b, fmax(max_abs(box->a), max_abs(box->b)));
+    Vec3 lo = scaled(box->a, 1 / unit), hi = scaled(box->b, 1 / unit);
+    Box *out = build_data(b, sizeof *out);
+    *out = (Box){ { { lo.x, lo.y, lo.z }, { hi.x, hi.y, hi.z } } };
+    Affine place = build_place(b, unit);
+    build_prim(b, out, &place, shape_padded((Bounds){ lo, hi }));
+}
+
+static void hits(const void *shape, const Ray *ray, HitSink *sink)
+{
+    const Box *box = shape;
+    const double o[3] = { ray->o.x, ray->o.y, ray->o.z }, d[3] = { ray->d.x, ray->d.y, ray->d.z };
+    double t_in = -INFINITY, t_out = INFINITY;
+    int in = -1, out = -1;
+    for (int i = 0; i < 3; i++) {
+        if (d[i] == 0) {
+            if (o[i] < box->side[0][i] || o[i] > box->side[1][i])
+                return;
+            continue;
+        }
+        int near = d[i] < 0;
+        double t0 = (box->side[near][i] - o[i]) / d[i], t1 = (box->side[!near][i] - o[i]) / d[i];
+        /* An edge belongs to the axis along which the ray is steeper. */
+        if (t0 > t_in || (t0 == t_in && fabs(d[i]) > fabs(d[in % 3]))) {
+            t_in = t0;
+            in = i + 3 * near;
+        }
+        if (t1 < t_out || (t1 == t_out && fabs(d[i]) > fabs(d[out % 3]))) {
+            t_out = t1;
+            out = i + 3 * !near;
+        }
+    }
+    if (in < 0 || t_in > t_out)
+        return;
+    hit_add(sink, t_in, (uint32_t)(in + ENTRY));
+    hit_add(sink, t_out, (uint32_t)out);
+}
+
+static bool inside(const void *shape, Vec3 p)
+{
+    const Box *box = shape;
+    return p.x >= box->side[0][0] && p.x <= box->side[1][0] && p.y >= box->side[0][1] && p.y <= box->side[1][1] &&
+           p.z >= box->side[0][2] && p.z <= box->side[1][2];
+}
+
+/* A cross of six squares in a picture four wide and three high (08-shapes, section 8). */
+static Vec2 unfolded(const Box *box, uint32_t side, Vec3 p)
+{
+    double f[3];
+    for (int i = 0; i < 3; i++) {
+        double size = box->side[1][i] - box->side[0][i];
+        f[i] = size > 0 ? (vec3_at(p, i) - box->side[0][i]) / size : 0;
+    }
+    switch (side) {
+    case 0: return (Vec2){ f[2] / 4, (1 + f[1]) / 3 };
+    case 1: return (Vec2){ (1 + f[0]) / 4, f[2] / 3 };
+    case 2: return (Vec2){ 1 - f[0] / 4, (1 + f[1]) / 3 };
+    case 3: return (Vec2){ (3 - f[2]) / 4, (1 + f[1]) / 3 };
+    case 4: return (Vec2){ (1 + f[0]) / 4, 1 - f[2] / 3 };
+    default: return (Vec2){ (1 + f[0]) / 4, (1 + f[1]) / 3 };
+    }
+}
+
+static void surface(const void *shape, const Hit *hit, Surface *out)
+{
+    const Box *box = shape;
+    uint32_t side = hit->part % ENTRY;
+    int axis = (int)side % 3, high = side >= 3;
+    vec3_set(&out->p, axis, box->side[high][axis]);
+    out->normal = vec3(0, 0, 0);
+    vec3_set(&out->normal, axis, high ? 1 : -1);
+    if (out->want_uv)
+        out->uv = unfolded(box, side, out->p);
+}
+
+static Bounds extent(const void *params, const Affine *place)
+{
+    const Params *box = params;
+    return bounds_transformed((Bounds){ box->a, box->b }, place);
+}
+
+const ShapeOps shape_box = {
+    .keyword = "box", .params_size = sizeof(Params), .flags = SHAPE_HAS_UV, .parse = parse, .compile = compile,
+    .hits = hits, .inside = inside, .surface = surface, .extent = extent,
+};

@@ -1,0 +1,72 @@
+/* plane.c - plane { normal, distance }: the half space on the side that the normal leaves is solid. */
+#include "sdl/parse.h"
+#include "shape/shape.h"
+
+typedef struct { Vec3 normal; double distance; } Params;
+
+/* POV: a ray within this angle of the plane misses it, and a point this close, relative to where it is, is inside:
+ * so coplanar faces of other members of a CSG survive. */
+static const double FLAT = 1e-10;
+
+static void parse(Parser *p, void *params)
+{
+    Params *plane = params;
+    Vec3 n = parse_vec3(p);
+    double unit = build_unit(max_abs(n));
+    plane->normal = normalized(scaled(n, 1 / unit));
+    plane->distance = parse_next_float(p);
+    if (max_abs(n) == 0)
+        parse_fail(p, "the normal of a plane needs a length");
+}
+
+static void compile(ShapeBuild *b, const void *params)
+{
+    const Params *plane = params;
+    double unit = shape_unit(b, fabs(plane->distance));
+    Params *out = build_data(b, sizeof *out);
+    *out = (Params){ plane->normal, plane->distance / unit };
+    Affine place = build_place(b, unit);
+    Bounds box = bounds_everything();
+    Vec3 n = out->normal;
+    for (int i = 0; i < 3; i++) {              /* along an axis: bounds the other members of an intersection */
+        double side = vec3_at(n, i);
+        if (fabs(side) == 1 && length2(n) == 1)
+            vec3_set(side > 0 ? &box.hi : &box.lo, i, side * (out->distance + 4 * FLAT * fabs(out->distance)));
+    }
+    build_prim(b, out, &place, box);
+}
+
+static void hits(const void *shape, const Ray *ray, HitSink *sink)
+{
+    const Params *plane = shape;
+    double slope = dot(plane->normal, ray->d);
+    if (fabs(slope) <= FLAT * max_abs(ray->d))
+        return;
+    hit_add(sink, (plane->distance - dot(plane->normal, ray->o)) / slope, 0);
+}
+
+static bool inside(const void *shape, Vec3 p)
+{
+    const Params *plane = shape;
+    return dot(plane->normal, p) - plane->distance <= FLAT * (max_abs(p) + fabs(plane->distance));
+}
+
+static void surface(const void *shape, const Hit *hit, Surface *out)
+{
+    (void)hit;
+    const Params *plane = shape;
+    out->normal = plane->normal;
+    out->p = add(out->p, scaled(plane->normal, plane->distance - dot(plane->normal, out->p)));
+}
+
+static Bounds extent(const void *params, const Affine *place)
+{
+    (void)params;
+    (void)place;
+    return bounds_everything();
+}
+
+const ShapeOps shape_plane = {
+    .keyword = "plane", .params_size = sizeof(Params), .parse = parse, .compile = compile,
+    .hits = hits, .inside = inside, .surface = surface, .extent = extent,
+};
