@@ -43,24 +43,25 @@ typedef struct Search {
     int n;
     double noise;                              /* values below are rounding */
     double lo, width;                          /* x = lo + width u */
-    double *root;
+    double *root, last;                        /* last: the newest root, as u */
     int found, budget;
-    double touch;                              /* where the last touch was, in u */
 } Search;
 
-static void report(Search *s, double u)
+static double value(const double *a, int n, double u)
 {
-    double x = s->lo + s->width * u;
-    if (s->found < s->n && (s->found == 0 || s->root[s->found - 1] != x))
-        s->root[s->found++] = x;
+    double f = a[n];
+    for (int k = n - 1; k >= 0; k--)
+        f = f * u + a[k];
+    return f;
 }
 
-/* A place where all is rounding: with its neighbours of the same kind it makes one root. */
-static void report_touch(Search *s, double u0, double size)
+/* Roots between which there is nothing but rounding are one. */
+static void report(Search *s, double u)
 {
-    if (u0 - s->touch > 3 * size)
-        report(s, u0 + 0.5 * size);
-    s->touch = u0 + size;
+    if (s->found == s->n || (s->found > 0 && fabs(value(s->a, s->n, 0.5 * (u + s->last))) <= s->noise))
+        return;
+    s->root[s->found++] = s->lo + s->width * u;
+    s->last = u;
 }
 
 static int sign_changes(const double *b, int n)
@@ -127,21 +128,18 @@ static bool is_noise(const Search *s, const double *b)
 static void isolate(Search *s, const double *b, double u0, double size, int depth)
 {
     int changes = sign_changes(b, s->n);
-    if (b[0] == 0) {
-        if (u0 - s->touch > 3 * size)
-            report(s, u0);
-        s->touch = u0;
-    }
-    if (changes == 1) {
-        int first = 0, last = s->n;
+    if (b[0] == 0)
+        report(s, u0);
+    if (changes > 0 && is_noise(s, b))
+        report(s, u0 + 0.5 * size);
+    else if (changes == 1) {
+        int first = 0;
         while (b[first] == 0)
             first++;
-        while (b[last] == 0)
-            last--;
         report(s, closed_in(s, u0, u0 + size, b[first] > 0));
     } else if (changes > 1) {
-        if (depth == DEPTH || is_noise(s, b) || --s->budget < 0)
-            report_touch(s, u0, size);
+        if (depth == DEPTH || --s->budget < 0)
+            report(s, u0 + 0.5 * size);
         else {
             double left[MAX + 1], right[MAX + 1];
             halve(b, s->n, left, right);
@@ -170,7 +168,6 @@ static void search(Search *s)
         largest = fmax(largest, fabs(b[i]));
     s->noise = 4 * DBL_EPSILON * total;
     s->budget = BUDGET;
-    s->touch = -INFINITY;
     if (largest <= s->noise)
         return;                                /* vanishes throughout, or cannot be told from that */
     isolate(s, b, 0, 1, 0);

@@ -36,9 +36,4 @@ Affine build_own_place(ShapeBuild *b);
 /* An index for Surface.texture: this texture, moved by `place` since it was attached, then by the object. */
 uint32_t build_texture(ShapeBuild *b, const Texture *texture, const Affine *place);
 
-/* What copies of one object share (a mesh's hierarchy): whatever was kept for `key`, the params, earlier in this World;
- * NULL if nothing yet. */
-const void *build_shared(ShapeBuild *b, const void *key);
-void build_share(ShapeBuild *b, const void *key, const void *data);
-
 #endif
