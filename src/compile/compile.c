@@ -69,7 +69,7 @@ static void survey_object(Survey *s, const Object *o, const Affine *around)
     if (o->kind == OBJECT_SHAPE) {
         s->n_shapes += s->n_shapes < UINT32_MAX;
         if (o->ops->extent != NULL)
-            survey_box(s, bounds_transformed(o->ops->extent(o->params), &place));
+            survey_box(s, o->ops->extent(o->params, &place));
     }
     if (o->kind == OBJECT_LIGHT && o->light->looks_like != NULL)
         survey_object(s, o->light->looks_like, &place);

@@ -156,6 +156,10 @@ Affine affine_then(Affine first, Affine second)
     Affine a = { .identity = false };
     compose(a.m, first.m, second.m);
     compose(a.inv, second.inv, first.inv);
+    a.identity = true;                         /* a scale and its undoing meet often: units of shapes and of the World */
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 3; j++)
+            a.identity &= a.m[i][j] == (i == j) && a.inv[i][j] == (i == j);
     return a;
 }
 
