@@ -9,7 +9,8 @@
 #define PATTERNS(ROW) \
     ROW(bozo) ROW(spotted) ROW(bumps) ROW(dents) ROW(granite) ROW(wrinkles) ROW(agate) ROW(marble) \
     ROW(wood) ROW(checker) ROW(square) ROW(triangular) ROW(hexagon) ROW(cubic) ROW(brick) ROW(gradient) \
-    ROW(planar) ROW(spherical) ROW(cylindrical) ROW(boxed) ROW(onion) ROW(radial) ROW(leopard)
+    ROW(planar) ROW(spherical) ROW(cylindrical) ROW(boxed) ROW(onion) ROW(radial) ROW(leopard) \
+    ROW(image_pattern) ROW(pigment_pattern) ROW(object)
 
 #define DECLARE_SHAPE(name) extern const ShapeOps shape_##name;
 #define DECLARE_PATTERN(name) extern const PatternOps pattern_##name;

@@ -12,6 +12,9 @@ typedef struct SdlHost {
     bool (*inside)(void *user, const Object *o, Vec3 p);
     Bounds (*extent)(void *user, const Object *o);
     Colour (*pigment)(void *user, const Pigment *pigment, Vec3 p);
+    /* The object as a World of its own, for patterns that ask "inside?" of it later, from any thread: it must live as long
+     * as the scene is rendered. */
+    const struct World *(*world)(void *user, const Object *o);
     double (*pattern)(void *user, const Pattern *pattern, Vec3 p);     /* after wave, frequency, phase */
 } SdlHost;
 
