@@ -79,11 +79,11 @@ static void survey_object(Survey *s, const Object *o, const Affine *around)
 
 /* ---- begin and end ---- */
 
-void compile_begin(Compile *c, World *w, const Registry *registry, const AccelOps *accel, Diag *diag, double unit)
+static void begin(Compile *c, World *w, Arena *arena, const Registry *registry, const AccelOps *accel, Diag *diag, double unit)
 {
     memset(c, 0, sizeof *c);
     c->w = w;
-    c->arena = &w->arena;
+    c->arena = arena;
     c->diag = diag;
     c->unit = unit;
     c->to_world = affine_scale(vec3(unit, unit, unit));
@@ -126,7 +126,7 @@ static void build_accelerator(Compile *c)
 
 #define TAKE(field, count, array) (w->field = c->array.data, w->count = c->array.n)
 
-void compile_end(Compile *c)
+static void end(Compile *c)
 {
     World *w = c->w;
     if (!c->geometry_only)
@@ -170,7 +170,7 @@ void compile_world(World *w, const Scene *scene, const Registry *registry, const
         survey_object(&survey, scene->object[i], &none);
 
     Compile compile, *c = &compile;
-    compile_begin(c, w, registry, ops, diag, 1 / build_unit(survey.size));
+    begin(c, w, &w->arena, registry, ops, diag, 1 / build_unit(survey.size));
     reserve(c, survey.n_shapes);
     w->scene = scene;
     w->camera = scene->camera;
@@ -182,5 +182,19 @@ void compile_world(World *w, const Scene *scene, const Registry *registry, const
         Inherited from = { .place = &none, .default_texture = o->default_texture ? o->default_texture : scene->default_texture };
         flatten_top(c, o, &from);
     }
-    compile_end(c);
+    end(c);
+}
+
+uint32_t compile_object(World *w, Arena *arena, const Registry *registry, Diag *diag, const Object *o)
+{
+    Affine none = affine_identity();
+    Survey survey = { 0 };
+    survey_object(&survey, o, &none);
+    Compile compile, *c = &compile;
+    begin(c, w, arena, registry, accel_find(NULL), diag, 1 / build_unit(survey.size));
+    c->geometry_only = true;
+    Inherited from = { .place = &none };
+    uint32_t item = flatten_whole(c, o, &from);
+    end(c);
+    return item;
 }

@@ -55,7 +55,7 @@ typedef struct Shared {                        /* a shape compiled for all its c
 
 struct Compile {
     World *w;
-    Arena *arena;                              /* the World's: compiling leaves little behind */
+    Arena *arena;                              /* where the World's arrays stand */
     Diag *diag;
     bool geometry_only;                        /* queries: no textures, materials, lights */
     double unit;
@@ -94,8 +94,8 @@ uint32_t *table_find(Compile *c, Table *t, uint32_t hash, const void *key, Table
 uint32_t hash_bytes(const void *data, size_t n);
 
 /* compile.c */
-void compile_begin(Compile *c, World *w, const Registry *registry, const AccelOps *accel, Diag *diag, double unit);
-void compile_end(Compile *c);
+/* A World of one object's geometry, for queries; what it needs stands in `arena`. Returns its item or NO_ITEM. */
+uint32_t compile_object(World *w, Arena *arena, const Registry *registry, Diag *diag, const Object *o);
 
 /* flatten.c */
 enum { NO_ITEM = 0x7fffffff };

@@ -1,0 +1,199 @@
+/* query.c - trace(), inside(), min_extent and max_extent, asked while the scene is still being read.
+ *
+ * Each object that is asked becomes a small World of its own, kept for the next question: scenes ask the same object a
+ * hundred thousand times. Objects are immutable, so their address is their name. */
+#include <string.h>
+
+#include "compile/compile.h"
+#include "compile/context.h"
+#include "world/prim.h"
+
+typedef struct Entry {
+    const Object *object;
+    World *world;
+    uint32_t item;                             /* the whole object; NO_ITEM: nothing to hit */
+} Entry;
+
+struct Query {
+    Arena *arena;
+    const Registry *registry;
+    Diag *diag;
+    Entry *last;                               /* most questions are about the object of the one before */
+    Entry *slot;                               /* open addressing by address; capacity is a power of two */
+    uint32_t n, capacity;
+};
+
+Query *query_new(Arena *arena, const Registry *registry, Diag *diag)
+{
+    Query *q = arena_new(arena, Query);
+    *q = (Query){ .arena = arena, .registry = registry, .diag = diag };
+    return q;
+}
+
+static Entry *find(const Query *q, const Object *o)
+{
+    uint32_t at = hash_bytes(&o, sizeof o) & (q->capacity - 1);
+    while (q->slot[at].object != NULL && q->slot[at].object != o)
+        at = (at + 1) & (q->capacity - 1);
+    return &q->slot[at];
+}
+
+static void grow(Query *q)
+{
+    Query bigger = *q;
+    bigger.capacity = q->capacity ? q->capacity * 2 : 32;
+    bigger.slot = arena_array(q->arena, Entry, bigger.capacity);
+    for (uint32_t i = 0; i < q->capacity; i++)
+        if (q->slot[i].object != NULL)
+            *find(&bigger, q->slot[i].object) = q->slot[i];
+    *q = bigger;
+}
+
+static const Entry *entry_of(Query *q, const Object *o)
+{
+    if (q->last != NULL && q->last->object == o)
+        return q->last;
+    if (2 * (q->n + 1) > q->capacity)
+        grow(q);
+    Entry *e = find(q, o);
+    if (e->object == NULL) {
+        e->world = arena_new(q->arena, World);
+        e->item = compile_object(e->world, q->arena, q->registry, q->diag, o);
+        e->object = o;
+        q->n++;
+    }
+    q->last = e;
+    return e;
+}
+
+/* POV: drops hits nearer than 1e-4. Here as near as arithmetic can tell, so that rays from a found point go on. */
+static double nearest_depth(const World *w, Vec3 from)
+{
+    double size = max_abs(from);
+    if (bounds_is_finite(w->bounds) && !bounds_is_empty(w->bounds))
+        size = fmax(size, fmax(max_abs(w->bounds.lo), max_abs(w->bounds.hi)));
+    return 0x1p-36 * size;
+}
+
+bool query_trace(void *query, const Object *o, Vec3 from, Vec3 direction, Vec3 *point, Vec3 *normal)
+{
+    const Entry *e = entry_of(query, o);
+    const World *w = e->world;
+    Ray ray = { scaled(from, w->unit), normalized(direction), 0, INFINITY };
+    ray.t_min = nearest_depth(w, ray.o);
+    Hit hit;
+    if (!vec3_finite(ray.o) || !vec3_finite(ray.d) || length2(ray.d) == 0 || !world_nearest(w, &ray, 0, &hit))
+        return false;
+    Surface s;
+    world_surface(w, &ray, &hit, false, &s);
+    *point = scaled(s.p, 1 / w->unit);
+    *normal = s.back ? negated(s.normal) : s.normal;
+    return true;
+}
+
+bool query_inside(void *query, const Object *o, Vec3 p)
+{
+    const Entry *e = entry_of(query, o);
+    return e->item != NO_ITEM && item_inside(e->world, e->item, scaled(p, e->world->unit));
+}
+
+/* ---- extents ---- */
+
+/* POV: boxes are a corner and lengths in single precision, and end at 1e10 (08-shapes, section 4.1). */
+static const double FAR = 1e10;
+
+static Bounds as_stored(Bounds b)
+{
+    Bounds out;
+    for (int axis = 0; axis < 3; axis++) {
+        double lo = fmax(-FAR, fmin(FAR, vec3_at(b.lo, axis))), hi = fmax(-FAR, fmin(FAR, vec3_at(b.hi, axis)));
+        float corner = (float)lo, length_ = (float)(hi - lo);
+        vec3_set(&out.lo, axis, (double)corner);
+        vec3_set(&out.hi, axis, (double)(corner + length_));
+    }
+    return out;
+}
+
+static double volume(Bounds b)
+{
+    Vec3 d = sub(b.hi, b.lo);
+    return d.x * d.y * d.z;
+}
+
+static bool is_far(Bounds b)
+{
+    Vec3 d = sub(b.hi, b.lo);
+    return d.x > 1e6 || d.y > 1e6 || d.z > 1e6;
+}
+
+static Bounds all_space(void)
+{
+    return (Bounds){ { -FAR, -FAR, -FAR }, { FAR, FAR, FAR } };
+}
+
+static Bounds extent_of(Query *q, const Object *o, const Affine *around);
+
+/* POV: only boxes of what is not inverted cut; a plane cuts when its normal lies along an axis. Shapes that are unbounded alone
+ * are asked for the box they are traced with. */
+static Bounds extent_in_all(Query *q, const Object *o, const Affine *around)
+{
+    Bounds b = extent_of(q, o, around);
+    if (o->kind != OBJECT_SHAPE || !is_far(b))
+        return b;
+    const Entry *e = entry_of(q, o);
+    const World *w = e->world;
+    if (e->item == NO_ITEM || is_node(e->item))
+        return b;
+    Bounds box = { scaled(w->box[e->item].lo, 1 / w->unit), scaled(w->box[e->item].hi, 1 / w->unit) };
+    return as_stored(bounds_intersection(b, bounds_transformed(box, around)));
+}
+
+static Bounds extent_of_intersection(Query *q, const Object *o, const Affine *place)
+{
+    Bounds all = all_space();
+    for (uint32_t i = 0; i < o->n_child; i++) {
+        const Object *child = o->child[i];
+        bool inverted = ((child->flags & OBJECT_INVERSE) != 0) != (o->kind == OBJECT_DIFFERENCE && i > 0);
+        if (inverted || child->kind == OBJECT_LIGHT ||
+            (child->kind == OBJECT_SHAPE && (child->ops->flags & SHAPE_NO_BOX_IN_CSG) && child->ops->extent == NULL))
+            continue;
+        all = bounds_intersection(all, extent_in_all(q, child, place));
+    }
+    return bounds_is_empty(all) || is_far(all) ? all_space() : as_stored(all);
+}
+
+static Bounds cut_by(Query *q, Bounds b, const Object *const *list, uint32_t n, const Affine *around)
+{
+    Bounds cut = all_space();
+    for (uint32_t i = 0; i < n; i++)
+        if (!(list[i]->flags & OBJECT_INVERSE))
+            cut = bounds_intersection(cut, extent_in_all(q, list[i], around));
+    return !bounds_is_empty(cut) && volume(cut) < volume(b) ? cut : b;
+}
+
+static Bounds extent_of(Query *q, const Object *o, const Affine *around)
+{
+    Affine place = affine_then(affine_of(o->place), *around);
+    Bounds b;
+    if (o->kind == OBJECT_SHAPE)
+        b = as_stored(o->ops->extent != NULL ? o->ops->extent(o->params, &place) : bounds_everything());
+    else if (o->kind == OBJECT_LIGHT)
+        b = o->light->looks_like != NULL ? extent_of(q, o->light->looks_like, &place) : all_space();
+    else if (o->kind == OBJECT_INTERSECTION || o->kind == OBJECT_DIFFERENCE)
+        b = extent_of_intersection(q, o, &place);
+    else {
+        b = bounds_empty();
+        for (uint32_t i = 0; i < o->n_child; i++)
+            if (o->child[i]->kind != OBJECT_LIGHT || o->child[i]->light->looks_like != NULL)
+                b = bounds_union(b, extent_of(q, o->child[i], &place));
+        b = as_stored(b);
+    }
+    b = cut_by(q, b, o->bounded_by, o->n_bounded_by, around);
+    return cut_by(q, b, o->clipped_by, o->n_clipped_by, around);
+}
+
+Bounds query_extent(void *query, const Object *o)
+{
+    Affine none = affine_identity();
+    return extent_of(query, o, &none);
+}
