@@ -4,13 +4,16 @@
 #include <stddef.h>
 
 #define SHAPES(ROW) \
-    ROW(box) ROW(cone) ROW(cylinder) ROW(disc) ROW(plane) ROW(smooth_triangle) ROW(sphere) ROW(torus) ROW(triangle)
+    ROW(box) ROW(cone) ROW(cylinder) ROW(disc) ROW(plane) ROW(smooth_triangle) ROW(sphere) ROW(torus) \
+    ROW(triangle)
 
 #define PATTERNS(ROW) \
     ROW(bozo) ROW(spotted) ROW(bumps) ROW(dents) ROW(granite) ROW(wrinkles) ROW(agate) ROW(marble) \
     ROW(wood) ROW(checker) ROW(square) ROW(triangular) ROW(hexagon) ROW(cubic) ROW(brick) ROW(gradient) \
     ROW(planar) ROW(spherical) ROW(cylindrical) ROW(boxed) ROW(onion) ROW(radial) ROW(leopard) \
-    ROW(image_pattern) ROW(pigment_pattern) ROW(object)
+    ROW(image_pattern) ROW(pigment_pattern) ROW(object) ROW(spiral1) ROW(spiral2) ROW(ripples) ROW(waves) \
+    ROW(quilted) ROW(crackle) ROW(cells) ROW(mandel) ROW(julia) ROW(magnet) ROW(density_file) ROW(slope) \
+    ROW(aoi)
 
 #define DECLARE_SHAPE(name) extern const ShapeOps shape_##name;
 #define DECLARE_PATTERN(name) extern const PatternOps pattern_##name;
