@@ -53,7 +53,7 @@ Rgb finish_iridescence(const Finish *finish, Vec3 p, double cos_light, double co
 /* F of 04 section 5.6 for a cosine, and the tint of metallic highlights and reflections. */
 double finish_metallic_fresnel(double cosine);
 
-/* The same texture, cheaper: maps of one colour folded, layers under an opaque one dropped, equal nodes shared. */
+/* The same texture, cheaper: maps of one colour folded, layers under an opaque one dropped. Itself if there is nothing to do. */
 const Texture *texture_prune(Arena *a, const Texture *texture);
 
 #endif
