@@ -1,0 +1,126 @@
+/* sampler.c - see sampler.h. */
+#include "render/sampler.h"
+
+#include "texture/texture.h"
+
+static const Colour NOTHING = { 0, 0, 0, 0, 1 };       /* where no ray goes */
+
+Sampling *sampling_new(Arena *arena, const World *w, const RenderOptions *options)
+{
+    Sampling *s = arena_new(arena, Sampling);
+    s->world = w;
+    s->tracing = tracing_new(arena, w, options->quality, options->output_alpha);
+    s->camera = camera_new(&w->camera, options->width, options->height);
+    s->blur = blur_new(arena, &w->camera);
+    s->moves = camera_moves(&w->camera);
+    position_hash_fill(&s->hash);
+    return s;
+}
+
+void sampler_init(Sampler *s, Arena *arena, const Sampling *sampling)
+{
+    s->sampling = sampling;
+    s->tracer = tracer_new(arena, sampling->tracing);
+    tracer_interiors(s->tracer, scaled(sampling->camera.def->location, sampling->world->unit), &s->around);
+}
+
+/* A ray in scene space. */
+static Colour shoot(Sampler *s, const CameraRay *ray, double reach)
+{
+    const Sampling *all = s->sampling;
+    Vec3 d = normalized(ray->d);
+    if (all->camera.def->normal != NULL)
+        d = normalized(normal_perturb(all->camera.def->normal, vec3(ray->work.u, ray->work.v, 0), d, NULL));
+    Vec3 o = scaled(ray->o, all->world->unit);
+    if (all->moves)
+        tracer_interiors(s->tracer, o, &s->around);
+    return tracer_camera_ray(s->tracer, o, d, reach, &s->around);
+}
+
+/* ---- focal blur ---- */
+
+typedef struct Moments { double sum[4], square[4]; } Moments;  /* red, green, blue, transmit */
+
+static void moments_add(Moments *m, Colour c)
+{
+    double v[4] = { (double)c.r, (double)c.g, (double)c.b, (double)c.t };
+    for (int i = 0; i < 4; i++) {
+        m->sum[i] += v[i];
+        m->square[i] += v[i] * v[i];
+    }
+}
+
+static bool moments_settled(const Moments *m, uint32_t n, double threshold)
+{
+    for (int i = 0; i < 4; i++) {
+        double mean = m->sum[i] / n;
+        if (!((m->square[i] / n - mean * mean) / n < threshold))
+            return false;
+    }
+    return true;
+}
+
+/* Sample m within the pixel: a cell of 16 x 16, jittered. POV: the jitter is biased towards the upper left. */
+static Vec2 blur_place(const PositionHash *h, int seed, uint32_t m)
+{
+    int at = seed + (int)m;
+    double x = (2 * (h->permutation[at & (HASH_SIZE - 1)] % 16) + 1) / 32.0 - 0.5;
+    double y = (2 * (h->permutation[(at + 1) & (HASH_SIZE - 1)] % 16) + 1) / 32.0 - 0.5;
+    Vec2 j = position_jitter(h, x, y);
+    return (Vec2){ x + (j.u - 0.5) / 16, y + (j.v - 0.5) / 16 };
+}
+
+/* POV: all rays start near the location, those of orthographic cameras too. */
+static bool blur_ray(const Sampling *all, double x, double y, int seed, uint32_t m, CameraRay *ray)
+{
+    const CameraDef *def = all->camera.def;
+    const Blur *blur = all->blur;
+    Vec2 within = blur_place(&all->hash, seed, m);
+    x += within.u;
+    y += within.v;
+    if (!camera_ray(&all->camera, x, y, ray))
+        return false;
+    Vec2 k = position_jitter(&all->hash, x + 0.5, y - 0.5);
+    double ex = def->aperture / 2 * (blur->place[m].u + 2 * blur->jitter * k.u);
+    double ey = def->aperture / 2 * (blur->place[m].v + 2 * blur->jitter * k.v);
+    Vec3 across = normalized(cross(def->up, def->direction));
+    Vec3 down = normalized(cross(def->direction, across));
+    Vec3 e = sub(scaled(across, ex), scaled(down, ey));
+    ray->o = add(def->location, e);
+    ray->d = sub(scaled(ray->d, def->focal_distance / length(def->direction)), e);
+    return true;
+}
+
+static Colour blurred(Sampler *s, double x, double y)
+{
+    const Blur *blur = s->sampling->blur;
+    int seed = (int)(313 * x + 11) + (int)(311 * y + 17);
+    Moments moments = { { 0 }, { 0 } };
+    Colour sum = { 0, 0, 0, 0, 0 };
+    const uint8_t *chunk = blur->chunk;
+    uint32_t m = 0;
+    while (m < blur->n) {
+        uint32_t end = m + (*chunk != 0 ? *chunk++ : 4);
+        for (; m < end && m < blur->n; m++) {
+            CameraRay ray;
+            if (blur_ray(s->sampling, x, y, seed, m, &ray)) {
+                Colour c = shoot(s, &ray, INFINITY);
+                sum = colour_add(sum, c);
+                moments_add(&moments, c);
+            } else {
+                moments_add(&moments, NOTHING);
+            }
+        }
+        if (m >= blur->n_min && moments_settled(&moments, m, blur->threshold[m]))
+            break;
+    }
+    return colour_scaled(sum, 1 / (float)m);
+}
+
+Colour sampler_colour(Sampler *s, double x, double y)
+{
+    if (s->sampling->blur != NULL)
+        return blurred(s, x, y);
+    CameraRay ray;
+    return camera_ray(&s->sampling->camera, x, y, &ray) ? shoot(s, &ray, INFINITY) : NOTHING;
+}

@@ -1,0 +1,32 @@
+/* sampler.h - the colour at a place of the picture: camera, camera normal, focal blur, then the ray. */
+#ifndef RENDER_SAMPLER_H
+#define RENDER_SAMPLER_H
+
+#include "render/blur.h"
+#include "render/camera.h"
+#include "render/render.h"
+#include "trace/trace.h"
+
+/* Shared by all threads. */
+typedef struct Sampling {
+    const World *world;
+    const Tracing *tracing;
+    Camera camera;
+    const Blur *blur;                          /* NULL: none */
+    PositionHash hash;
+    bool moves;                                /* the bodies around the eye differ from ray to ray */
+} Sampling;
+
+typedef struct Sampler {
+    const Sampling *sampling;
+    Tracer *tracer;
+    Interiors around;
+} Sampler;
+
+Sampling *sampling_new(Arena *arena, const World *w, const RenderOptions *options);
+void sampler_init(Sampler *s, Arena *arena, const Sampling *sampling);
+
+/* Whole numbers are pixel centres. */
+Colour sampler_colour(Sampler *s, double x, double y);
+
+#endif

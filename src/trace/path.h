@@ -1,0 +1,146 @@
+/* path.h - inside the room: what the files of trace share. */
+#ifndef TRACE_PATH_H
+#define TRACE_PATH_H
+
+#include "texture/texture.h"
+#include "trace/trace.h"
+#include "world/prim.h"
+
+enum { FOGS_MAX = 64, RAINBOWS_MAX = 64, HUES = 74 };
+
+/* What POV-Ray takes for zero where colours and cosines are concerned: no lengths are compared with it. */
+static const double TINY = 1e-10;
+
+/* How far a ray goes that hits nothing, in world units (the scene is about 1 large). */
+static const double FAR_AWAY = 2e10;
+
+/* Rays within rays, straight ones counted too. A limit of the stack, far beyond what can be seen. */
+enum { NESTING_MAX = 1000 };
+
+typedef struct Bow {                           /* a rainbow made ready */
+    const RainbowDef *def;
+    Vec3 antisolar, right, up;
+    double angle, width, arc, falloff, distance, jitter;       /* radians; arc and falloff are halves */
+} Bow;
+
+struct Tracing {
+    const World *world;
+    int quality;
+    bool alpha, legacy;                        /* legacy: the scene speaks a language before 3.7 */
+    Colour background;                         /* as the sky shows it */
+    bool wants_uv;                             /* some texture or object maps by uv */
+    double to_scene;                           /* 1 / world->unit */
+    double adc_bailout;
+    int max_level;
+    const FogDef *const *fog;   uint32_t n_fog;        /* those that are on */
+    Bow *bow;                   uint32_t n_bows;
+    double *stream;                            /* stream A, if anything draws from it */
+    uint32_t n_area_samples;                   /* of the largest area light */
+    float hue[3][HUES];                        /* cumulative, red, green, blue */
+};
+
+typedef struct AreaSample { Rgb colour; uint32_t stamp; } AreaSample;
+
+struct Tracer {
+    const Tracing *tracing;
+    const World *world;
+    Streams chance;
+    uint32_t *last_blocker;                    /* per light: prim + 1 that hid it last; 0 none */
+    AreaSample *area;                          /* samples of the area light in work; valid if stamp is area_stamp */
+    uint32_t area_stamp;
+    int nesting;
+};
+
+typedef struct Path {
+    Vec3 o, d;                                 /* d of unit length (refracted: to rounding) */
+    double reach;
+    const Interiors *in;
+    double weight;
+    double wavelength;                         /* of one band of a dispersed ray, nm; 0: white */
+    uint32_t skip;                             /* flags of prims not seen */
+    int level;                                 /* bends behind it */
+    bool straight;                             /* continues its parent without a bend: not counted */
+    bool alpha;                                /* the background may be seen through */
+} Path;
+
+/* One hit being shaded. */
+enum { LIGHTS_REMEMBERED = 24 };
+typedef struct Shade {
+    Tracer *t;
+    const Path *path;
+    const Surface *surface;
+    const Material *material;
+    uint32_t interior;
+    double depth;
+    int level;                                 /* that secondary rays start with */
+    TextureContext at;
+    /* Light after shadows, the same for all layers of this hit. */
+    uint32_t known;                            /* bit per light */
+    Rgb light[LIGHTS_REMEMBERED];
+    Colour sum;
+} Shade;
+
+/* A finish at work: one layer of a leaf. */
+typedef struct Layer {
+    const Finish *finish;
+    Vec3 n;                                    /* perturbed */
+    Vec3 p;                                    /* where the texture is asked, for iridescence */
+    Rgb colour;
+    double opacity;
+} Layer;
+
+typedef struct Beam {                          /* light as it arrives: unshadowed */
+    Vec3 l;                                    /* unit, towards the light */
+    double d;                                  /* how far, as shadows and fading count it */
+    Rgb colour;
+} Beam;
+
+/* trace.c */
+Colour trace_path(Tracer *t, const Path *path);
+
+/* shade.c */
+Colour shade_hit(Tracer *t, const Path *path, const Hit *hit, int level);
+
+/* secondary.c: rays that leave a surface. */
+Vec3 reflected(Vec3 d, Vec3 n, Vec3 raw);      /* never below the surface that `raw` stands on */
+Colour shade_reflect(const Shade *s, Vec3 n, double weight, bool alpha);
+/* Adds what passes through the surface to sum; returns whether all of it is reflected. */
+bool shade_transmit(const Shade *s, Vec3 n, Rgb filter, bool filtered, double through, Colour *sum);
+
+/* light.c */
+/* from: the light's place, or a sample of its area. False: no light. */
+bool light_beam(const Light *light, Vec3 from, Vec3 p, Rgb colour, Beam *out);
+Rgb shade_lights(Shade *s, const Layer *layer);
+
+/* shadow.c: `colour` as it passes from the light at distance beam->d to the surface. */
+Rgb shadow_walk(const Shade *s, uint32_t light, const Beam *beam, Rgb colour);
+
+/* area.c */
+Rgb area_visible(const Shade *s, uint32_t light, Rgb colour);          /* mean over the samples */
+Vec3 area_sample_place(Tracer *t, const Light *light, Vec3 l, int u, int v);
+
+/* interior.c */
+void interiors_add(Interiors *list, uint32_t interior);
+void interiors_remove(Interiors *list, uint32_t place);
+int interiors_find(const Interiors *list, uint32_t interior);          /* place, or -1 */
+bool interiors_hollow(const World *w, const Interiors *list);
+double interior_ratio(const World *w, const Interiors *list, uint32_t interior);      /* ior here / ior around, for Fresnel */
+Rgb interior_fade(const Interior *i, double depth);                    /* depth in scene units */
+
+/* sky.c */
+Colour sky_colour(const Tracing *tracing, Vec3 d, bool alpha);
+
+/* fog.c: distances and points in world units. */
+typedef struct FogPass { Rgb factor, added; } FogPass;
+FogPass fog_pass(const Tracing *tracing, Vec3 o, Vec3 d, double depth);
+Colour fog_apply(const Tracing *tracing, Vec3 o, Vec3 d, double depth, Colour c);
+
+/* rainbow.c */
+void bow_prepare(Bow *bow, const RainbowDef *def);
+Colour rainbow_apply(Tracer *t, Vec3 d, double depth, Colour c);
+
+/* dispersion.c */
+void hue_fill(float hue[3][HUES]);
+Rgb hue_of_band(const Tracing *tracing, double wavelength, double width);
+
+#endif

@@ -1,0 +1,56 @@
+/* random.h - the sources of chance of 03-camera-and-sampling: streams, the position hash, sub-random sequences.
+ *
+ * POV-Ray's streams run on through a thread's work, so its pictures depend on who rendered what. Here every tile starts its
+ * streams anew at a place that depends on the tile alone; the first tile starts where POV-Ray's only thread does. */
+#ifndef TRACE_RANDOM_H
+#define TRACE_RANDOM_H
+
+#include <stdint.h>
+
+#include "math/vec.h"
+
+enum { MERSENNE_N = 624, STREAM_SIZE = 32768, HASH_SIZE = 4096 };
+
+typedef struct Mersenne {                      /* MT19937 */
+    uint32_t state[MERSENNE_N];
+    uint32_t next;
+} Mersenne;
+
+void mersenne_seed(Mersenne *m, uint32_t seed);
+uint32_t mersenne_next(Mersenne *m);
+
+/* Stream A: area lights and rainbows. */
+void stream_fill(double table[STREAM_SIZE]);
+
+typedef struct Streams {
+    const double *table;                       /* of stream_fill */
+    uint32_t at;                               /* last entry used */
+    uint32_t grain;                            /* state of the generator behind crand */
+} Streams;
+
+void streams_start(Streams *s, const double *table, uint32_t tile);
+
+static inline double streams_uniform(Streams *s)       /* [0, 1) */
+{
+    s->at = (s->at + 1) % STREAM_SIZE;
+    return s->table[s->at];
+}
+
+static inline double streams_crand(Streams *s)         /* [0, 1] */
+{
+    s->grain = s->grain * 1812433253u + 12345u;
+    return s->grain * (1.0 / 4294967295.0);
+}
+
+/* The hash of a sample position that all jitter of pixels comes from. */
+typedef struct PositionHash {
+    uint16_t permutation[HASH_SIZE];
+    float jitter[256];
+} PositionHash;
+
+void position_hash_fill(PositionHash *h);
+Vec2 position_jitter(const PositionHash *h, double x, double y);
+
+double radical_inverse(uint32_t base, uint32_t i);     /* Halton's sequence in one dimension: h_base(i) */
+
+#endif

@@ -1,0 +1,146 @@
+/* secondary.c - the rays that leave a surface: mirrored and passed on (04-shading, section 8). */
+#include "trace/path.h"
+
+static Vec3 mirrored(Vec3 d, Vec3 n)
+{
+    return sub(d, scaled(n, 2 * dot(d, n)));
+}
+
+Vec3 reflected(Vec3 d, Vec3 n, Vec3 raw)
+{
+    Vec3 r = mirrored(d, n);
+    if (dot(r, raw) < 0)
+        r = dot(r, n) < 0 ? mirrored(d, raw) : mirrored(r, raw);
+    return normalized(r);
+}
+
+Colour shade_reflect(const Shade *s, Vec3 n, double weight, bool alpha)
+{
+    Vec3 d = reflected(s->path->d, n, s->surface->normal);
+    Path path = {
+        .o = surface_offset(s->surface, d), .d = d, .reach = INFINITY, .in = s->path->in, .weight = weight,
+        .wavelength = s->path->wavelength, .skip = PRIM_NO_REFLECTION, .level = s->level, .alpha = alpha
+    };
+    return trace_path(s->t, &path);
+}
+
+typedef struct Crossing {                      /* from one body into another */
+    double ratio, dispersion;                  /* index of refraction from / to */
+    int bands;
+    Interiors in;                              /* beyond */
+} Crossing;
+
+static Crossing cross_into(const Shade *s)
+{
+    const World *w = s->t->world;
+    const Interiors *list = s->path->in;
+    const Interior *here = w->interior[s->interior].interior;
+    Crossing c = { .ratio = 1 / (double)here->ior, .dispersion = 1 / (double)here->dispersion,
+                   .bands = here->dispersion_samples > 1 ? here->dispersion_samples : 1, .in = { .n = list->n } };
+    for (uint32_t i = 0; i < list->n; i++)
+        c.in.at[i] = list->at[i];
+    int place = interiors_find(list, s->interior);
+    const Interior *last = list->n > 0 ? w->interior[list->at[list->n - 1]].interior : NULL;
+    if (place < 0) {
+        if (last != NULL) {
+            c.ratio = (double)last->ior / (double)here->ior;
+            c.dispersion = (double)last->dispersion / (double)here->dispersion;
+        }
+        interiors_add(&c.in, s->interior);
+        return c;
+    }
+    interiors_remove(&c.in, (uint32_t)place);
+    if ((uint32_t)place + 1 < list->n) {       /* not the innermost: nothing changes for the ray */
+        c.ratio = c.dispersion = 1;
+        return c;
+    }
+    c.ratio = (double)here->ior;
+    c.dispersion = (double)here->dispersion;
+    if (c.in.n > 0) {
+        const Interior *outer = w->interior[c.in.at[c.in.n - 1]].interior;
+        c.ratio /= (double)outer->ior;
+        c.dispersion /= (double)outer->dispersion;
+        if (outer->dispersion_samples > c.bands)
+            c.bands = outer->dispersion_samples;
+    }
+    return c;
+}
+
+static Path passed_on(const Shade *s, const Crossing *c, Vec3 d, double weight)
+{
+    uint32_t skip = s->path->skip & PRIM_NO_IMAGE ? PRIM_NO_IMAGE | PRIM_NO_IMAGE_LATER : s->path->skip;
+    return (Path){ .o = surface_offset(s->surface, d), .d = d, .reach = INFINITY, .in = &c->in, .weight = weight,
+                   .wavelength = s->path->wavelength, .skip = skip, .level = s->level, .alpha = s->path->alpha };
+}
+
+/* One bent ray; `total`: it could not leave, and was mirrored. */
+static Colour bent(const Shade *s, const Crossing *c, Vec3 n, double ratio, double wavelength, double weight, bool *total)
+{
+    Vec3 d = s->path->d;
+    if (dot(n, d) > 0)
+        n = negated(n);
+    double k = fabs(dot(n, d));
+    double rest = 1 + ratio * ratio * (k * k - 1);
+    *total = rest < 0;
+    if (rest < 0)
+        return shade_reflect(s, n, weight, s->path->alpha);
+    Path path = passed_on(s, c, add(scaled(d, ratio), scaled(n, ratio * k - sqrt(rest))), weight);
+    path.wavelength = wavelength;
+    return trace_path(s->t, &path);
+}
+
+/* POV: 555 nm has the index of refraction itself; dispersion is the quotient at the ends of the spectrum. */
+static double ratio_at(const Crossing *c, double wavelength)
+{
+    return c->ratio * pow(c->dispersion, -(wavelength - 555) / 350);
+}
+
+static Colour spectrum(const Shade *s, const Crossing *c, Vec3 n, double weight)
+{
+    Rgb sum = rgb_grey(0);
+    double width = 350.0 / c->bands;
+    for (int i = 0; i < c->bands; i++) {
+        double wavelength = 380 + width * (i + 0.5);
+        bool total;
+        Colour band = bent(s, c, n, ratio_at(c, wavelength), wavelength, weight, &total);
+        sum = rgb_add(sum, rgb_mul(rgb_of(band), hue_of_band(s->t->tracing, wavelength, width)));
+    }
+    sum = rgb_scaled(sum, 1 / (float)c->bands);
+    return (Colour){ sum.r, sum.g, sum.b, 0, 0 };
+}
+
+static Rgb dimming(const Shade *s)
+{
+    const Interior *here = s->t->world->interior[s->interior].interior;
+    Rgb dim = rgb_grey(here->old_refraction);
+    /* POV: what is seen fades with fade_distance alone, shadows only with fade_power too. */
+    if (here->fade_distance != 0 && interiors_find(s->path->in, s->interior) >= 0)
+        dim = rgb_mul(dim, interior_fade(here, s->depth * s->t->tracing->to_scene));
+    return dim;
+}
+
+bool shade_transmit(const Shade *s, Vec3 n, Rgb filter, bool filtered, double through, Colour *sum)
+{
+    Crossing c = cross_into(s);
+    double weight = s->path->weight * (double)rgb_max_abs(filter);
+    Colour seen;
+    bool total = false;
+    if (fabs(c.ratio - 1) < TINY && fabs(c.dispersion - 1) < TINY) {
+        Path path = passed_on(s, &c, s->path->d, weight);
+        path.straight = true;
+        seen = trace_path(s->t, &path);
+    } else if (fabs(c.dispersion - 1) >= TINY && s->path->wavelength == 0) {
+        seen = spectrum(s, &c, n, weight);
+    } else {
+        double wavelength = s->path->wavelength;
+        double ratio = c.dispersion != 1 && wavelength != 0 ? ratio_at(&c, wavelength) : c.ratio;
+        seen = bent(s, &c, n, ratio, wavelength, weight, &total);
+    }
+    Rgb dim = dimming(s);
+    Rgb light = rgb_mul(rgb_of(seen), dim);
+    if (!total && filtered)
+        light = rgb_mul(light, filter);
+    *sum = (Colour){ sum->r + light.r, sum->g + light.g, sum->b + light.b, 0,
+                     total ? sum->t : rgb_greyness(dim) * seen.t * (filtered ? (float)through : 1) };
+    return total;
+}

@@ -1,0 +1,210 @@
+/* shadow.c - how much light gets from a light source to a surface (04-shading, section 6).
+ *
+ * One walk over all that lies between: the first opaque hit ends it, whichever comes first, and transparent ones are collected and
+ * multiplied afterwards in their order along the ray. The prim that hid a light last is asked first; that changes no answer, since
+ * any opaque blocker means dark. */
+#include <stdlib.h>
+
+#include "trace/path.h"
+
+/* What lies within a few roundings of the light does not hide it. */
+static const double LIGHT_END = 1 - 0x1p-36;
+
+enum { VEILS_MAX = 32 };                       /* transparent hits kept at once; more are walked in further rounds */
+
+typedef struct Veils {
+    const World *world;
+    Hit hit[VEILS_MAX];
+    uint32_t n;
+    bool overflowed;                           /* those kept are the nearest */
+    uint32_t blocker;                          /* the opaque prim found */
+} Veils;
+
+static int hit_order(const void *a, const void *b)
+{
+    const Hit *h = a, *k = b;
+    if (h->t != k->t)
+        return h->t < k->t ? -1 : 1;
+    if (h->prim != k->prim)
+        return h->prim < k->prim ? -1 : 1;
+    return h->part < k->part ? -1 : h->part > k->part;
+}
+
+static bool keep_veil(void *user, const Hit *hit)
+{
+    Veils *veils = user;
+    if (veils->world->prim[hit->prim].flags & PRIM_OPAQUE) {
+        veils->blocker = hit->prim;
+        return true;
+    }
+    for (uint32_t i = 0; i < veils->n; i++)    /* walks may offer a hit twice */
+        if (hit_order(&veils->hit[i], hit) == 0)
+            return false;
+    if (veils->n < VEILS_MAX) {
+        veils->hit[veils->n++] = *hit;
+        return false;
+    }
+    veils->overflowed = true;
+    uint32_t last = 0;
+    for (uint32_t i = 1; i < VEILS_MAX; i++)
+        if (hit_order(&veils->hit[i], &veils->hit[last]) > 0)
+            last = i;
+    if (hit_order(hit, &veils->hit[last]) < 0)
+        veils->hit[last] = *hit;
+    return false;
+}
+
+/* ---- one surface in the way ---- */
+
+typedef struct Veil {
+    const Tracer *t;
+    const Surface *surface;
+    Vec3 l;
+    double caustics;
+    TextureContext at;
+    float weight;                              /* of the texture among several */
+    Rgb sum;
+} Veil;
+
+static void pass_leaf(void *user, const TextureLeaf *leaf)
+{
+    Veil *veil = user;
+    Rgb pass = rgb_grey(1);
+    TextureContext at = veil->at;
+    for (const Texture *layer = leaf->top; layer != NULL; layer = layer->below) {
+        if (veil->caustics != 0) {
+            Vec3 n = texture_layer_normal(leaf, layer, veil->surface->normal, &at);
+            pass = rgb_scaled(pass, (float)(1 + pow(fabs(dot(n, veil->l)), veil->caustics)));
+        }
+        bool found = true;
+        Colour c = texture_layer_colour(leaf, layer, &at, &found);
+        if (found)
+            pass = rgb_mul(pass, colour_transmittance(c));
+    }
+    veil->sum = rgb_add(veil->sum, rgb_scaled(pass, leaf->weight * veil->weight));
+}
+
+static Rgb surface_passes(const Shade *s, const Ray *ray, const Hit *hit, Surface *surface)
+{
+    Tracer *t = s->t;
+    const World *w = t->world;
+    const Material *m = &w->material[w->prim[hit->prim].material];
+    world_surface(w, ray, hit, t->tracing->wants_uv, surface);
+    Veil veil = { .t = t, .surface = surface, .l = ray->d, .caustics = (double)w->interior[m->interior].interior->caustics };
+    veil.at = s->at;
+    veil.at.point = scaled(surface->p, t->tracing->to_scene);
+    veil.at.ray = ray->d;
+    veil.at.normal = surface->normal;
+    veil.at.uv = surface->uv;
+    Vec3 p = m->flags & MATERIAL_UV ? vec3(surface->uv.u, surface->uv.v, 0) : veil.at.point;
+    uint32_t texture = m->texture;
+    if (surface->back && (m->flags & MATERIAL_HAS_INTERIOR_TEXTURE))
+        texture = m->interior_texture;
+    for (uint32_t i = 0; i < (surface->n_textures > 0 ? surface->n_textures : 1); i++) {
+        veil.weight = surface->n_textures > 0 ? surface->texture[i].weight : 1;
+        uint32_t chosen = surface->n_textures > 0 && surface->texture[i].texture != 0 ? surface->texture[i].texture : texture;
+        if (veil.weight >= (float)t->tracing->adc_bailout && chosen != 0)
+            texture_resolve(&w->texture[chosen], p, &veil.at, pass_leaf, &veil);
+    }
+    return veil.sum;
+}
+
+/* ---- the walk ---- */
+
+typedef struct Walk {
+    const Shade *s;
+    const Light *light;
+    Ray ray;
+    Interiors in;
+    double done;                               /* how far it has come */
+    bool in_air;                               /* fog dims this light */
+    Rgb colour;
+} Walk;
+
+static void dim_by_fog(Walk *walk, double to)
+{
+    if (!walk->in_air || !interiors_hollow(walk->s->t->world, &walk->in))
+        return;
+    FogPass pass = fog_pass(walk->s->t->tracing, ray_at(&walk->ray, walk->done), walk->ray.d, to - walk->done);
+    walk->colour = rgb_mul(walk->colour, pass.factor);
+}
+
+static void pass_surface(Walk *walk, const Hit *hit)
+{
+    Tracer *t = walk->s->t;
+    const World *w = t->world;
+    Surface surface;
+    walk->colour = rgb_mul(walk->colour, surface_passes(walk->s, &walk->ray, hit, &surface));
+    uint32_t interior = w->material[w->prim[hit->prim].material].interior;
+    const Interior *body = w->interior[interior].interior;
+    int place = interiors_find(&walk->in, interior);
+    if (place >= 0 && body->fade_power > 0 && body->fade_distance != 0)
+        walk->colour = rgb_mul(walk->colour, interior_fade(body, (hit->t - walk->done) * t->tracing->to_scene));
+    dim_by_fog(walk, hit->t);
+    if (place >= 0)
+        interiors_remove(&walk->in, (uint32_t)place);
+    else
+        interiors_add(&walk->in, interior);
+    walk->done = hit->t;
+}
+
+/* Not for a light that an object of the scene has to pass first. */
+static bool still_hidden(Tracer *t, uint32_t light, const Ray *ray)
+{
+    uint32_t last = t->last_blocker[light];
+    Hit hit;
+    if (last == 0)
+        return false;
+    if (prim_nearest(t->world, last - 1, ray, PRIM_NO_SHADOW, &hit))
+        return true;
+    t->last_blocker[light] = 0;
+    return false;
+}
+
+static Rgb walk_veils(Walk *walk, uint32_t light)
+{
+    Tracer *t = walk->s->t;
+    Veils veils = { .world = t->world };
+    do {
+        veils.n = 0;
+        veils.overflowed = false;
+        if (world_each_hit(t->world, &walk->ray, PRIM_NO_SHADOW, keep_veil, &veils)) {
+            t->last_blocker[light] = veils.blocker + 1;
+            return rgb_grey(0);
+        }
+        qsort(veils.hit, veils.n, sizeof veils.hit[0], hit_order);
+        for (uint32_t i = 0; i < veils.n; i++) {
+            pass_surface(walk, &veils.hit[i]);
+            if (rgb_is_zero(walk->colour))
+                return walk->colour;
+        }
+        if (veils.overflowed)
+            walk->ray.t_min = veils.hit[veils.n - 1].t;
+    } while (veils.overflowed);
+    dim_by_fog(walk, walk->ray.t_max);
+    return walk->colour;
+}
+
+Rgb shadow_walk(const Shade *s, uint32_t light, const Beam *beam, Rgb colour)
+{
+    Tracer *t = s->t;
+    const Light *source = &t->world->light[light];
+    Walk walk = { .s = s, .light = source, .colour = colour };
+    walk.ray = (Ray){ surface_offset(s->surface, beam->l), beam->l, 0, beam->d * LIGHT_END };
+    if (source->projected_through != 0) {
+        Hit hit;
+        if (!item_nearest(t->world, source->projected_through - 1, &walk.ray, &hit))
+            return rgb_grey(0);
+        if (source->def->shadowless)
+            return colour;
+        walk.ray.t_max = hit.t * LIGHT_END;    /* only what stands on this side of the projecting surface counts */
+    }
+    if (still_hidden(t, light, &walk.ray))
+        return rgb_grey(0);
+    walk.in.n = s->path->in->n;
+    for (uint32_t i = 0; i < walk.in.n; i++)
+        walk.in.at[i] = s->path->in->at[i];
+    walk.in_air = t->tracing->quality >= 9 && t->tracing->n_fog > 0 && source->def->media_attenuation &&
+                  source->def->media_interaction;
+    return walk_veils(&walk, light);
+}

@@ -1,0 +1,49 @@
+/* trace.c - one ray: what it hits, or the sky, then the air between (04-shading, section 1). */
+#include "trace/path.h"
+
+static const Colour BLACK = { 0, 0, 0, 0, 0 };         /* opaque */
+
+/* Fog and rainbows lie in front of whatever was found, unless the ray is inside something solid. */
+static Colour through_air(Tracer *t, const Path *path, double depth, Colour c)
+{
+    const Tracing *tracing = t->tracing;
+    if (tracing->quality < 9 || tracing->n_fog + tracing->n_bows == 0 || !interiors_hollow(t->world, path->in))
+        return c;
+    if (tracing->n_bows > 0)
+        c = rainbow_apply(t, path->d, depth, c);
+    if (tracing->n_fog > 0)
+        c = fog_apply(tracing, path->o, path->d, depth, c);
+    return c;
+}
+
+Colour trace_path(Tracer *t, const Path *path)
+{
+    const Tracing *tracing = t->tracing;
+    if (path->level >= tracing->max_level || path->weight < tracing->adc_bailout || t->nesting >= NESTING_MAX)
+        return BLACK;
+    int level = path->level + (path->straight ? 0 : 1);
+    Ray ray = { path->o, path->d, 0, path->reach };
+    Hit hit;
+    t->nesting++;
+    Colour c;
+    double depth = FAR_AWAY;
+    if (world_nearest(t->world, &ray, path->skip, &hit)) {
+        c = shade_hit(t, path, &hit, level);
+        depth = hit.t;
+    } else {
+        c = sky_colour(tracing, path->d, path->alpha);
+    }
+    t->nesting--;
+    return through_air(t, path, depth, c);
+}
+
+void tracer_interiors(const Tracer *t, Vec3 p, Interiors *out)
+{
+    out->n = world_interiors_at(t->world, p, out->at, INTERIORS_MAX);
+}
+
+Colour tracer_camera_ray(Tracer *t, Vec3 o, Vec3 d, double reach, const Interiors *around)
+{
+    Path path = { .o = o, .d = d, .reach = reach, .in = around, .weight = 1, .skip = PRIM_NO_IMAGE, .alpha = t->tracing->alpha };
+    return trace_path(t, &path);
+}

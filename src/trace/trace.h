@@ -1,0 +1,34 @@
+/* trace.h - what comes along a ray: the recursion of 04-shading.
+ *
+ * Tracing (shared, const while rays fly) holds what is worked out once per picture; a Tracer is what one thread owns. */
+#ifndef TRACE_TRACE_H
+#define TRACE_TRACE_H
+
+#include "trace/random.h"
+#include "world/world.h"
+
+enum { INTERIORS_MAX = 64 };
+
+/* The bodies a ray is in, in the order of entering (indices of World.interior). What finds no room is not remembered. */
+typedef struct Interiors {
+    uint32_t n;
+    uint32_t at[INTERIORS_MAX];
+} Interiors;
+
+typedef struct Tracing Tracing;
+typedef struct Tracer Tracer;
+
+/* Lives in `arena`, as long as it. quality: 0..11; alpha: is the background to be seen through? */
+const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha);
+Tracer *tracer_new(Arena *arena, const Tracing *tracing);
+
+/* A new stretch of chance; what follows depends on the tile alone. */
+void tracer_start_tile(Tracer *t, uint32_t tile);
+
+/* The bodies around a point in world space. */
+void tracer_interiors(const Tracer *t, Vec3 p, Interiors *out);
+
+/* A camera ray in world space, d of unit length, nothing beyond `reach` seen. Filter is 0 in the answer. */
+Colour tracer_camera_ray(Tracer *t, Vec3 o, Vec3 d, double reach, const Interiors *around);
+
+#endif
