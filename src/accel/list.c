@@ -37,7 +37,7 @@ const AccelOps accel_list = { .name = "list", .build = build, .walk = walk, .aro
 
 const AccelOps *accel_find(const char *name)
 {
-    static const AccelOps *const rows[] = { &accel_list };
+    static const AccelOps *const rows[] = { &accel_bvh, &accel_list };
     if (name == NULL)
         return rows[0];
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)

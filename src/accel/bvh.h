@@ -1,0 +1,51 @@
+/* bvh.h - the tree that bvh.c builds and bvh_kernel.c walks. */
+#ifndef ACCEL_BVH_H
+#define ACCEL_BVH_H
+
+#include <float.h>
+
+#include "base/cpu.h"
+#include "world/world.h"
+
+enum {
+    BVH_WIDTH = 8,
+    BVH_MAX_DEPTH = 64,                        /* of wide nodes; bvh.c keeps to it */
+    BVH_STACK = BVH_MAX_DEPTH * (BVH_WIDTH - 1) + 1
+};
+
+/* The first n children are used. Boxes are the items' own rounded outward and one ulp more: whole-number coordinates round to
+ * themselves, and rays along their faces would slip through. */
+typedef struct BvhNode {
+    float lo[3][BVH_WIDTH], hi[3][BVH_WIDTH];
+    uint32_t child[BVH_WIDTH];                 /* a node, or a leaf's first place in Bvh.item */
+    uint8_t count[BVH_WIDTH];                  /* items of the leaf; 0: a node */
+    uint32_t n;
+} BvhNode;
+
+typedef struct Bvh {
+    BvhNode *node;                             /* node 0 is the root */
+    uint32_t *item;                            /* in the order of the leaves */
+    uint32_t n_nodes, n_items;
+    CpuIsa isa;
+} Bvh;
+
+/* The largest float <= x, the smallest >= x; infinities and NaN stay. */
+static inline float float_below(double x)
+{
+    float f = (float)x;
+    return (double)f > x ? nextafterf(f, -INFINITY) : f;
+}
+
+static inline float float_above(double x)
+{
+    float f = (float)x;
+    return (double)f < x ? nextafterf(f, INFINITY) : f;
+}
+
+typedef bool BvhWalk(const Bvh *b, const Ray *ray, double *t_max, AccelVisit *visit, void *user);
+typedef bool BvhAround(const Bvh *b, Vec3 p, AccelVisit *visit, void *user);
+
+#define DECLARE_BVH(isa) extern BvhWalk bvh_walk_##isa; extern BvhAround bvh_around_##isa;
+CPU_ISAS(DECLARE_BVH)
+
+#endif

@@ -1,0 +1,122 @@
+/* bvh_kernel.c - walking the tree, eight boxes at a time; built once per instruction set (base/cpu.h).
+ *
+ * The box test never misses: the near side is computed with the origin rounded along the ray and the inverse direction shrunk
+ * by more than the rounding of the two operations that follow, the far side the other way round. A near side behind the
+ * origin may come out too far forward, but not beyond 0, where every walk begins at the earliest. Zero directions have
+ * infinite inverses; the only NaN, 0 * infinity, is a ray in the plane of a side and is ignored by f8_max and f8_min. */
+#include "accel/bvh.h"
+
+#include "base/simd.h"
+
+typedef struct BoxRay {
+    f8 o_near[3], o_far[3], inv_near[3], inv_far[3];
+    int near_is_hi[3];
+} BoxRay;
+
+typedef struct Visit {
+    float near;
+    uint32_t child;
+    uint32_t count;
+} Visit;
+
+static const double SHRINK = 1 - 0x1p-22, STRETCH = 1 + 0x1p-22;
+
+static BoxRay box_ray(const Ray *ray)
+{
+    BoxRay r;
+    for (int axis = 0; axis < 3; axis++) {
+        double o = vec3_at(ray->o, axis), d = vec3_at(ray->d, axis);
+        double inv = 1 / d, large = fabs(inv);
+        float below = float_below(o), above = float_above(o);
+        float small_inv = isinf(large) && d == 0 ? INFINITY : (float)fmin(large * SHRINK, FLT_MAX);
+        float large_inv = (float)(large * STRETCH);
+        bool back = signbit(d);
+        r.near_is_hi[axis] = back;
+        r.o_near[axis] = f8_set(back ? below : above);
+        r.o_far[axis] = f8_set(back ? above : below);
+        r.inv_near[axis] = f8_set(back ? -small_inv : small_inv);
+        r.inv_far[axis] = f8_set(back ? -large_inv : large_inv);
+    }
+    return r;
+}
+
+/* The children whose boxes the ray may meet in [t_min, t_max], and where it enters them. */
+static inline uint32_t meet(const BvhNode *node, const BoxRay *r, float t_min, float t_max, float near_out[BVH_WIDTH])
+{
+    f8 near = f8_set(t_min), far = f8_set(t_max);
+    for (int axis = 0; axis < 3; axis++) {
+        const float *lo = node->lo[axis], *hi = node->hi[axis];
+        f8 enter = f8_load(r->near_is_hi[axis] ? hi : lo), leave = f8_load(r->near_is_hi[axis] ? lo : hi);
+        near = f8_max(f8_mul(f8_sub(enter, r->o_near[axis]), r->inv_near[axis]), near);
+        far = f8_min(f8_mul(f8_sub(leave, r->o_far[axis]), r->inv_far[axis]), far);
+    }
+    f8_store(near_out, near);
+    return f8_le(near, far) & ((1u << node->n) - 1);
+}
+
+/* Puts the children on the stack, the nearest on top. */
+static inline uint32_t push(Visit *stack, uint32_t n, const BvhNode *node, uint32_t mask, const float near[BVH_WIDTH])
+{
+    uint32_t first = n;
+    for (; mask != 0; mask &= mask - 1) {
+        uint32_t i = (uint32_t)__builtin_ctz(mask), at = n++;
+        float t = near[i];
+        for (; at > first && stack[at - 1].near < t; at--)
+            stack[at] = stack[at - 1];
+        stack[at] = (Visit){ t, node->child[i], node->count[i] };
+    }
+    return n;
+}
+
+bool ISA_NAME(bvh_walk)(const Bvh *b, const Ray *ray, double *t_max, AccelVisit *visit, void *user)
+{
+    Visit stack[BVH_STACK];
+    float near[BVH_WIDTH];
+    BoxRay r = box_ray(ray);
+    float t_min = float_below(ray->t_min), limit = float_above(*t_max);
+    uint32_t n = 1;
+    stack[0] = (Visit){ t_min, 0, 0 };
+    while (n > 0) {
+        Visit v = stack[--n];
+        if (v.near > limit)
+            continue;
+        if (v.count == 0) {
+            const BvhNode *node = &b->node[v.child];
+            n = push(stack, n, node, meet(node, &r, t_min, limit, near), near);
+            continue;
+        }
+        for (uint32_t i = 0; i < v.count; i++)
+            if (visit(user, b->item[v.child + i], t_max))
+                return true;
+        limit = float_above(*t_max);
+    }
+    return false;
+}
+
+bool ISA_NAME(bvh_around)(const Bvh *b, Vec3 p, AccelVisit *visit, void *user)
+{
+    uint32_t stack[BVH_STACK];
+    double t_max = INFINITY;
+    f8 below[3], above[3];
+    for (int axis = 0; axis < 3; axis++) {
+        below[axis] = f8_set(float_below(vec3_at(p, axis)));
+        above[axis] = f8_set(float_above(vec3_at(p, axis)));
+    }
+    uint32_t n = 1;
+    stack[0] = 0;
+    while (n > 0) {
+        const BvhNode *node = &b->node[stack[--n]];
+        uint32_t mask = (1u << node->n) - 1;
+        for (int axis = 0; axis < 3; axis++)
+            mask &= f8_le(f8_load(node->lo[axis]), above[axis]) & f8_le(below[axis], f8_load(node->hi[axis]));
+        for (; mask != 0; mask &= mask - 1) {
+            uint32_t i = (uint32_t)__builtin_ctz(mask);
+            if (node->count[i] == 0)
+                stack[n++] = node->child[i];
+            for (uint32_t k = 0; k < node->count[i]; k++)
+                if (visit(user, b->item[node->child[i] + k], &t_max))
+                    return true;
+        }
+    }
+    return false;
+}

@@ -1,0 +1,58 @@
+/* simd.h - f8: eight floats at once, the same results behind every instruction set.
+ *
+ * Only elementwise IEEE operations, so all versions give the same bits. f8_max and f8_min return the second operand when
+ * either is NaN, as SSE does. */
+#ifndef BASE_SIMD_H
+#define BASE_SIMD_H
+
+#include <stdint.h>
+
+#if defined(__AVX__)
+#include <immintrin.h>
+
+typedef struct f8 { __m256 v; } f8;
+
+static inline f8 f8_load(const float *p) { return (f8){ _mm256_loadu_ps(p) }; }
+static inline f8 f8_set(float x) { return (f8){ _mm256_set1_ps(x) }; }
+static inline void f8_store(float *p, f8 a) { _mm256_storeu_ps(p, a.v); }
+static inline f8 f8_sub(f8 a, f8 b) { return (f8){ _mm256_sub_ps(a.v, b.v) }; }
+static inline f8 f8_mul(f8 a, f8 b) { return (f8){ _mm256_mul_ps(a.v, b.v) }; }
+static inline f8 f8_max(f8 a, f8 b) { return (f8){ _mm256_max_ps(a.v, b.v) }; }
+static inline f8 f8_min(f8 a, f8 b) { return (f8){ _mm256_min_ps(a.v, b.v) }; }
+/* Bit i: a[i] <= b[i]; NaN is false. */
+static inline uint32_t f8_le(f8 a, f8 b) { return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)); }
+
+#elif defined(__SSE2__)
+#include <emmintrin.h>
+
+typedef struct f8 { __m128 a, b; } f8;
+
+static inline f8 f8_load(const float *p) { return (f8){ _mm_loadu_ps(p), _mm_loadu_ps(p + 4) }; }
+static inline f8 f8_set(float x) { return (f8){ _mm_set1_ps(x), _mm_set1_ps(x) }; }
+static inline void f8_store(float *p, f8 x) { _mm_storeu_ps(p, x.a), _mm_storeu_ps(p + 4, x.b); }
+static inline f8 f8_sub(f8 x, f8 y) { return (f8){ _mm_sub_ps(x.a, y.a), _mm_sub_ps(x.b, y.b) }; }
+static inline f8 f8_mul(f8 x, f8 y) { return (f8){ _mm_mul_ps(x.a, y.a), _mm_mul_ps(x.b, y.b) }; }
+static inline f8 f8_max(f8 x, f8 y) { return (f8){ _mm_max_ps(x.a, y.a), _mm_max_ps(x.b, y.b) }; }
+static inline f8 f8_min(f8 x, f8 y) { return (f8){ _mm_min_ps(x.a, y.a), _mm_min_ps(x.b, y.b) }; }
+static inline uint32_t f8_le(f8 x, f8 y)
+{
+    return (uint32_t)(_mm_movemask_ps(_mm_cmple_ps(x.a, y.a)) | _mm_movemask_ps(_mm_cmple_ps(x.b, y.b)) << 4);
+}
+
+#else
+
+typedef struct f8 { float v[8]; } f8;
+
+#define F8_EACH(expression) for (int i = 0; i < 8; i++) expression
+static inline f8 f8_load(const float *p) { f8 r; F8_EACH(r.v[i] = p[i]); return r; }
+static inline f8 f8_set(float x) { f8 r; F8_EACH(r.v[i] = x); return r; }
+static inline void f8_store(float *p, f8 a) { F8_EACH(p[i] = a.v[i]); }
+static inline f8 f8_sub(f8 a, f8 b) { F8_EACH(a.v[i] -= b.v[i]); return a; }
+static inline f8 f8_mul(f8 a, f8 b) { F8_EACH(a.v[i] *= b.v[i]); return a; }
+static inline f8 f8_max(f8 a, f8 b) { F8_EACH(a.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i]); return a; }
+static inline f8 f8_min(f8 a, f8 b) { F8_EACH(a.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i]); return a; }
+static inline uint32_t f8_le(f8 a, f8 b) { uint32_t m = 0; F8_EACH(m |= (uint32_t)(a.v[i] <= b.v[i]) << i); return m; }
+
+#endif
+
+#endif
