@@ -5,7 +5,7 @@
 
 #define SHAPES(ROW) \
     ROW(box) ROW(cone) ROW(cylinder) ROW(disc) ROW(plane) ROW(smooth_triangle) ROW(sphere) ROW(torus) \
-    ROW(triangle)
+    ROW(triangle) ROW(mesh) ROW(mesh2)
 
 #define PATTERNS(ROW) \
     ROW(bozo) ROW(spotted) ROW(bumps) ROW(dents) ROW(granite) ROW(wrinkles) ROW(agate) ROW(marble) \

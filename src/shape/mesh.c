@@ -1,0 +1,262 @@
+/* mesh.c - what mesh and mesh2 have in common once they are parsed: one prim with a hierarchy of its own over triangles.
+ *
+ * Copies of a mesh share all of it. A hit's part is the number of the triangle, u and v are barycentric. */
+#include "shape/mesh.h"
+
+#include "sdl/parse.h"
+#include "shape/shape.h"
+#include "shape/triangle.h"
+
+typedef struct Mesh {
+    const MeshParams *m;
+    const AccelOps *ops;
+    const void *accel;
+    const uint32_t *texture;                   /* of build_texture, by index in the mesh */
+    Vec3 inward;                               /* direction of inside tests; 0: no inside */
+} Mesh;
+
+static Vec3 to_vec3(Float3 v)
+{
+    return vec3((double)v.x, (double)v.y, (double)v.z);
+}
+
+/* ---- parsing ---- */
+
+Float3 mesh_vertex(Parser *p, MeshParams *m, Vec3 v)
+{
+    if (m->unit == 0 && max_abs(v) > 0)
+        m->unit = build_unit(max_abs(v));
+    double per = m->unit > 0 ? 1 / m->unit : 1;
+    Float3 f = { (float)(v.x * per) + 0.0f, (float)(v.y * per) + 0.0f, (float)(v.z * per) + 0.0f };    /* -0 is 0 */
+    if (!(isfinite(f.x) && isfinite(f.y) && isfinite(f.z)))
+        parse_fail(p, "the vertex <%g, %g, %g> is too far away for this mesh", v.x, v.y, v.z);
+    return f;
+}
+
+Float3 mesh_normal(Vec3 n, bool *was_zero)
+{
+    double most = max_abs(n);
+    *was_zero = !(most > 0 && most < INFINITY);
+    n = *was_zero ? vec3(1, 0, 0) : normalized(scaled(n, 1 / build_unit(most)));
+    return (Float3){ (float)n.x, (float)n.y, (float)n.z };
+}
+
+bool mesh_item(Parser *p, void *params)
+{
+    MeshParams *m = params;
+    if (!parse_accept(p, KW_INSIDE_VECTOR))
+        return false;
+    Vec3 v = parse_vec3(p);
+    m->inside_vector = normalized(scaled(v, 1 / build_unit(max_abs(v))));
+    return true;
+}
+
+void mesh_ready(MeshParams *m)
+{
+    m->box = bounds_empty();
+    for (uint32_t i = 0; i < m->n_faces; i++)
+        for (int k = 0; k < 3; k++)
+            m->box = bounds_include(m->box, to_vec3(m->vertex[m->face[i].v[k]]));
+}
+
+/* ---- compiling ---- */
+
+/* Of the faces, in the order of their numbers. Boxes serve the building only: they have an arena of their own. */
+static const void *hierarchy(ShapeBuild *b, const MeshParams *m)
+{
+    Arena own;
+    arena_init(&own);
+    own.out_of_memory = b->arena->out_of_memory;
+    own.user = b->arena->user;
+    Bounds *box = arena_array(&own, Bounds, m->n_faces);
+    for (uint32_t i = 0; i < m->n_faces; i++) {
+        Vec3 p[3];
+        for (int k = 0; k < 3; k++)
+            p[k] = to_vec3(m->vertex[m->face[i].v[k]]);
+        box[i] = bounds_of_points(p, 3);
+    }
+    const void *accel = b->accel->build(b->arena, box, m->n_faces);
+    arena_free(&own);
+    return accel;
+}
+
+/* Does every edge have another face that runs through it the other way? Sums of hashes answer: each edge adds for one
+ * direction what it takes away for the other. */
+static bool is_closed(const MeshParams *m)
+{
+    uint64_t sum = 0;
+    for (uint32_t i = 0; i < m->n_faces; i++)
+        for (int k = 0; k < 3; k++) {
+            uint32_t a = m->face[i].v[k], z = m->face[i].v[(k + 1) % 3];
+            uint64_t lo = a < z ? a : z, hi = a < z ? z : a, h = lo << 32 | hi;
+            h = (h ^ h >> 31) * 0x9e3779b97f4a7c15u;
+            h = (h ^ h >> 29) * 0xbf58476d1ce4e5b9u;
+            h ^= h >> 32;
+            sum = a < z ? sum + h : sum - h;
+        }
+    return sum == 0;
+}
+
+void mesh_compile(ShapeBuild *b, const void *params)
+{
+    const MeshParams *m = params;
+    if (m->n_faces == 0)
+        return;
+    Mesh *out = build_data(b, sizeof *out);
+    *out = (Mesh){ .m = m, .ops = b->accel, .accel = hierarchy(b, m), .inward = m->inside_vector };
+    if (m->n_textures > 0) {
+        uint32_t *texture = build_data(b, m->n_textures * sizeof *texture);
+        for (uint32_t i = 0; i < m->n_textures; i++)
+            texture[i] = build_texture(b, m->texture[i], NULL);
+        out->texture = texture;
+    }
+    /* POV: the vector stays as written when the mesh is turned. It makes a difference only when there are holes. */
+    if (max_abs(out->inward) > 0 && !is_closed(m)) {
+        Affine place = build_own_place(b);
+        Vec3 local = affine_vector_back(&place, out->inward);
+        out->inward = normalized(scaled(local, 1 / build_unit(max_abs(local))));
+    }
+    double unit = m->unit > 0 ? m->unit : 1;
+    Affine place = build_place(b, unit);
+    build_prim(b, out, &place, shape_padded(m->box));
+}
+
+Bounds mesh_extent(const void *params, const Affine *place)
+{
+    const MeshParams *m = params;
+    double unit = m->unit > 0 ? m->unit : 1;
+    return bounds_transformed((Bounds){ scaled(m->box.lo, unit), scaled(m->box.hi, unit) }, place);
+}
+
+/* ---- tracing ---- */
+
+typedef struct Walk {
+    const MeshParams *m;
+    TriRay ray;
+    HitSink *sink;
+} Walk;
+
+static bool visit(void *user, uint32_t i, double *t_max)
+{
+    Walk *w = user;
+    const Index3 *f = &w->m->face[i];
+    TriHit hit;
+    if (tri_hit(&w->ray, to_vec3(w->m->vertex[f->v[0]]), to_vec3(w->m->vertex[f->v[1]]), to_vec3(w->m->vertex[f->v[2]]),
+                &hit)) {
+        hit_add_uv(w->sink, hit.t, i, hit.u, hit.v);
+        *t_max = hit_limit(w->sink);
+    }
+    return false;
+}
+
+void mesh_hits(const void *shape, const Ray *ray, HitSink *sink)
+{
+    const Mesh *mesh = shape;
+    Walk w = { mesh->m, tri_ray(ray), sink };
+    double t_max = hit_limit(sink);
+    mesh->ops->walk(mesh->accel, ray, &t_max, visit, &w);
+}
+
+typedef struct Parity {
+    const MeshParams *m;
+    TriRay ray;
+    bool odd;
+} Parity;
+
+/* A point on an edge lies on one side of it, the same for both faces: nothing is counted twice. */
+static bool left_of(uint32_t a, uint32_t b, double edge)
+{
+    return edge != 0 ? edge > 0 : a < b;
+}
+
+static bool count(void *user, uint32_t i, double *t_max)
+{
+    (void)t_max;
+    Parity *c = user;
+    const uint32_t *f = c->m->face[i].v;
+    double x[3], y[3], z[3], sum = 0, depth = 0;
+    for (int k = 0; k < 3; k++) {
+        Vec3 p = sub(to_vec3(c->m->vertex[f[k]]), c->ray.o);
+        z[k] = vec3_at(p, c->ray.kz);
+        x[k] = vec3_at(p, c->ray.kx) - c->ray.sx * z[k];
+        y[k] = vec3_at(p, c->ray.ky) - c->ray.sy * z[k];
+    }
+    int left = 0;
+    for (int k = 0; k < 3; k++) {
+        int n = (k + 1) % 3, over = (k + 2) % 3;
+        double edge = x[k] * y[n] - y[k] * x[n];
+        left += left_of(f[k], f[n], edge);
+        sum += edge;
+        depth += edge * z[over];
+    }
+    if ((left == 0 || left == 3) && sum != 0 && c->ray.sz * depth / sum > 0)
+        c->odd = !c->odd;
+    return false;
+}
+
+bool mesh_inside(const void *shape, Vec3 p)
+{
+    const Mesh *mesh = shape;
+    if (max_abs(mesh->inward) == 0)
+        return false;
+    Ray ray = { p, mesh->inward, 0, INFINITY };
+    Parity c = { mesh->m, tri_ray(&ray), false };
+    double t_max = INFINITY;
+    mesh->ops->walk(mesh->accel, &ray, &t_max, count, &c);
+    return c.odd;
+}
+
+/* ---- the surface ---- */
+
+static void set_textures(const Mesh *mesh, const Index3 *face, double u, double v, Surface *out)
+{
+    const double weight[3] = { 1 - u - v, u, v };
+    out->n_textures = 0;
+    if (face->v[0] == face->v[1] && face->v[0] == face->v[2]) {
+        if (face->v[0] != MESH_NONE) {
+            out->texture[0].texture = mesh->texture[face->v[0]];
+            out->texture[0].weight = 1;
+            out->n_textures = 1;
+        }
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        out->texture[k].texture = face->v[k] == MESH_NONE ? 0 : mesh->texture[face->v[k]];
+        out->texture[k].weight = (float)fmax(0, fmin(1, weight[k]));
+    }
+    out->n_textures = 3;
+}
+
+void mesh_surface(const void *shape, const Hit *hit, Surface *out)
+{
+    const Mesh *mesh = shape;
+    const MeshParams *m = mesh->m;
+    const Index3 *face = &m->face[hit->part];
+    double u = hit->u, v = hit->v, w = 1 - u - v;
+    Vec3 p[3];
+    for (int k = 0; k < 3; k++)
+        p[k] = to_vec3(m->vertex[face->v[k]]);
+    out->p = add(p[0], add(scaled(sub(p[1], p[0]), u), scaled(sub(p[2], p[0]), v)));
+    out->normal = normalized(cross(sub(p[0], p[1]), sub(p[2], p[1])));
+    if (m->face_normal != NULL && m->face_normal[hit->part].v[0] != MESH_NONE) {
+        const Index3 *index = &m->face_normal[hit->part];
+        Vec3 n[3];
+        for (int k = 0; k < 3; k++)
+            n[k] = to_vec3(m->normal[index->v[k]]);
+        /* POV: normals that are all the same leave the face flat. */
+        if (length2(sub(n[0], n[1])) > 1e-10 || length2(sub(n[0], n[2])) > 1e-10) {
+            out->geometric = out->normal;
+            out->normal = add(scaled(n[0], w), add(scaled(n[1], u), scaled(n[2], v)));
+        }
+    }
+    if (out->want_uv) {
+        out->uv = (Vec2){ 0, 0 };
+        if (m->face_uv != NULL && m->face_uv[hit->part].v[0] != MESH_NONE) {
+            const uint32_t *index = m->face_uv[hit->part].v;
+            Vec2 a = m->uv[index[0]], b = m->uv[index[1]], c = m->uv[index[2]];
+            out->uv = (Vec2){ w * a.u + u * b.u + v * c.u, w * a.v + u * b.v + v * c.v };
+        }
+    }
+    if (m->face_texture != NULL)
+        set_textures(mesh, &m->face_texture[hit->part], u, v, out);
+}
