@@ -7,6 +7,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -172,6 +173,125 @@ static void a_text_bitmap_and_a_comment_are_read(void **state)
     arena_free(&a);
 }
 
+/* ---- formats made by hand ---- */
+
+static Image *read_bytes(Arena *a, const void *bytes, size_t n, ImageFormat format)
+{
+    char error[IMAGE_ERROR] = "";
+    Image *im = image_read(a, (Str){ bytes, (uint32_t)n }, format, &exact, error);
+    if (im == NULL)
+        print_error("%s\n", error);
+    assert_non_null(im);
+    return im;
+}
+
+static void assert_pixel(const Image *im, int x, int y, double r, double g, double b, double transmit)
+{
+    Colour c = image_pixel(im, x, y);
+    assert_true(fabs((double)c.r - r) < 1e-5 && fabs((double)c.g - g) < 1e-5 && fabs((double)c.b - b) < 1e-5
+                && fabs((double)c.t - transmit) < 1e-5);
+}
+
+static void tga_colours_of_16_bits_and_palettes_are_read(void **state)
+{
+    (void)state;
+    static const unsigned char deep[] = { 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0, 16, 0x20, 0x1f, 0x80, 0xe0, 0x03 };
+    static const unsigned char palette[] = { 0, 1, 9, 0, 0, 2, 0, 24, 0, 0, 0, 0, 3, 0, 1, 0, 8, 0x20,
+                                             255, 0, 0, 0, 0, 255, 0x81, 1, 0x00, 0 };
+    Arena a;
+    arena_init(&a);
+    Image *im = read_bytes(&a, deep, sizeof deep, IMAGE_TGA);
+    assert_pixel(im, 0, 0, 0, 0, 248 / 255.0, 0);
+    assert_pixel(im, 1, 0, 0, 248 / 255.0, 0, 1);
+    im = read_bytes(&a, palette, sizeof palette, IMAGE_TGA);
+    assert_true(im->indexed);
+    assert_pixel(im, 1, 0, 1, 0, 0, 0);
+    assert_pixel(im, 2, 0, 0, 0, 1, 0);
+    arena_free(&a);
+}
+
+static void interlaced_gif_rows_are_put_in_order(void **state)
+{
+    (void)state;
+    /* one pixel wide, five high, rows 0 4 2 1 3 of colours 0 1 0 1 1; 4 clears the table so that codes stay at 3 bits */
+    static const unsigned char gif[] = { 'G', 'I', 'F', '8', '9', 'a', 1, 0, 5, 0, 0x80, 0, 0, 0, 0, 0, 255, 255, 255,
+                                         ',', 0, 0, 0, 0, 1, 0, 5, 0, 0x40, 2, 3, 0, 0, 0, 0, ';' };
+    unsigned char file[sizeof gif];
+    memcpy(file, gif, sizeof gif);
+    uint32_t bits = 0;
+    const unsigned code[] = { 4, 0, 1, 4, 0, 1, 4, 1 };
+    for (int i = 0; i < 8; i++)
+        bits |= code[i] << (3 * i);
+    for (int i = 0; i < 3; i++)
+        file[31 + i] = (unsigned char)(bits >> (8 * i));
+    Arena a;
+    arena_init(&a);
+    Image *im = read_bytes(&a, file, sizeof file, IMAGE_GIF);
+    static const double row[] = { 0, 1, 0, 1, 1 };
+    for (int y = 0; y < 5; y++)
+        assert_pixel(im, 0, y, row[y], row[y], row[y], 0);
+    arena_free(&a);
+}
+
+static void hdr_pixels_have_a_shared_exponent_and_runs(void **state)
+{
+    (void)state;
+    char file[200] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 3\n";
+    size_t n = strlen(file);
+    static const unsigned char pixels[] = { 128, 64, 0, 129, 1, 1, 1, 2 };
+    memcpy(file + n, pixels, sizeof pixels);
+    Arena a;
+    arena_init(&a);
+    Image *im = read_bytes(&a, file, n + sizeof pixels, IMAGE_BY_CONTENT);
+    for (int x = 0; x < 3; x++)
+        assert_pixel(im, x, 0, 128.5 / 128, 64.5 / 128, 0.5 / 128, 0);
+    char error[IMAGE_ERROR];
+    assert_null(image_read(&a, (Str){ file, (uint32_t)n + 6 }, IMAGE_HDR, &exact, error));
+    assert_string_equal(error, "the file ends before its last pixel");
+    arena_free(&a);
+}
+
+static void a_run_length_coded_bmp_is_read(void **state)
+{
+    (void)state;
+    unsigned char file[54 + 8 + 8] = { 'B', 'M', [10] = 62, [14] = 40, [18] = 4, [22] = 2, [26] = 1, [28] = 8, [30] = 1, [46] = 2 };
+    static const unsigned char rest[] = { 0, 0, 0, 0, 255, 255, 255, 0, 3, 1, 0, 0, 4, 1, 0, 1 };
+    memcpy(file + 54, rest, sizeof rest);
+    Arena a;
+    arena_init(&a);
+    Image *im = read_bytes(&a, file, sizeof file, IMAGE_BY_CONTENT);
+    assert_pixel(im, 2, 1, 1, 1, 1, 0);
+    assert_pixel(im, 3, 1, 0, 0, 0, 0);
+    assert_pixel(im, 3, 0, 1, 1, 1, 0);
+    arena_free(&a);
+}
+
+#ifdef HAVE_TIFF
+static void a_tiff_is_read_and_a_cut_one_refused(void **state)
+{
+    (void)state;
+    /* two grey pixels, values 51 and 204, in one strip at 8; seven tags at 10 */
+    static const unsigned char tiff[] = {
+        'I', 'I', 42, 0, 10, 0, 0, 0, 51, 204, 7, 0,
+        0x00, 1, 3, 0, 1, 0, 0, 0, 2, 0, 0, 0, 0x01, 1, 3, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0x02, 1, 3, 0, 1, 0, 0, 0, 8, 0, 0, 0,
+        0x03, 1, 3, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0x06, 1, 3, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0x11, 1, 4, 0, 1, 0, 0, 0, 8, 0, 0, 0,
+        0x17, 1, 4, 0, 1, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0
+    };
+    Arena a;
+    arena_init(&a);
+    Image *im = read_bytes(&a, tiff, sizeof tiff, IMAGE_BY_CONTENT);
+    assert_pixel(im, 0, 0, 0.2, 0.2, 0.2, 0);
+    assert_pixel(im, 1, 0, 0.8, 0.8, 0.8, 0);
+    char error[IMAGE_ERROR];
+    for (uint32_t n = 8; n < 90; n++) {
+        strcpy(error, "");
+        assert_null(image_read(&a, (Str){ (const char *)tiff, n }, IMAGE_TIFF, &exact, error));
+        assert_true(strlen(error) > 0);
+    }
+    arena_free(&a);
+}
+#endif
+
 /* ---- writing ---- */
 
 static void fill(float *rgba, int n, bool clear)
@@ -286,6 +406,13 @@ int main(void)
         cmocka_unit_test(every_single_damaged_byte_is_survived),
         cmocka_unit_test(huge_sizes_in_small_files_are_refused_before_anything_is_allocated),
         cmocka_unit_test(a_text_bitmap_and_a_comment_are_read),
+        cmocka_unit_test(tga_colours_of_16_bits_and_palettes_are_read),
+        cmocka_unit_test(interlaced_gif_rows_are_put_in_order),
+        cmocka_unit_test(hdr_pixels_have_a_shared_exponent_and_runs),
+        cmocka_unit_test(a_run_length_coded_bmp_is_read),
+#ifdef HAVE_TIFF
+        cmocka_unit_test(a_tiff_is_read_and_a_cut_one_refused),
+#endif
         cmocka_unit_test(written_files_read_back_as_they_were),
         cmocka_unit_test(jpeg_is_close),
         cmocka_unit_test(a_failed_write_leaves_the_old_file_and_no_other),
