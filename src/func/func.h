@@ -15,6 +15,7 @@ enum { FUNC_MAX_PARAMETERS = 56 };
 typedef struct Function Function;
 
 int func_parameters(const Function *f);
+int func_terms(const Function *f);             /* of its value: 1; of vector functions 2 to 5 */
 double func_call(const Function *f, const double *arguments);          /* one point */
 /* n points; arguments[k] is an array of n values of parameter k. Same bits as n calls. */
 void func_eval(const Function *f, const double *const *arguments, double *out, uint32_t n);

@@ -31,6 +31,7 @@ typedef struct SdlOptions {
     const Str *allow_write;         uint32_t n_allow_write;
     bool strict;
     Str input_name;                            /* value of input_file_name */
+    const volatile int *stop;                  /* not 0: give up soon; NULL: never */
 } SdlOptions;
 
 /* Parses `text` of the file `path`. The caller has set the landing of diag (diag_landing); mistakes jump there. */

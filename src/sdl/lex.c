@@ -1,0 +1,297 @@
+/* lex.c - from bytes to tokens, straight from the text of a file (01-language, section 1). */
+#include <string.h>
+
+#include "sdl/parser.h"
+
+enum { C_ILLEGAL, C_BLANK, C_LINE, C_LETTER, C_DIGIT, C_QUOTE, C_SLASH, C_HASH, C_DOT, C_LESS, C_MARK };
+
+#define L C_LETTER
+#define D C_DIGIT
+#define B C_BLANK
+#define M C_MARK
+
+static const unsigned char class_of[256] = {
+    B, 0, 0, 0, 0, 0, 0, 0, 0, B, C_LINE, B, B, C_LINE, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, B, 0, 0, 0, 0, 0,
+    B, M, C_QUOTE, C_HASH, M, M, M, M, M, M, M, M, M, M, C_DOT, C_SLASH, D, D, D, D, D, D, D, D, D, D, M, M, C_LESS, M, M, M,
+    M, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, M, M, M, M, L,
+    M, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, M, M, M, M, 0,
+};
+
+#undef L
+#undef D
+#undef B
+#undef M
+
+static const uint16_t mark_of[128] = {
+    ['{'] = TOK_OPEN, ['}'] = TOK_CLOSE, ['('] = TOK_LPAREN, [')'] = TOK_RPAREN, ['['] = TOK_LBRACKET, [']'] = TOK_RBRACKET,
+    ['='] = TOK_EQUAL, ['!'] = TOK_NOT, ['&'] = TOK_AND, ['|'] = TOK_OR, ['+'] = TOK_PLUS, ['-'] = TOK_MINUS,
+    ['*'] = TOK_STAR, [','] = TOK_COMMA, [';'] = TOK_SEMICOLON, [':'] = TOK_COLON, ['?'] = TOK_QUESTION,
+    ['>'] = TOK_GREATER, ['@'] = TOK_OTHER, ['\\'] = TOK_OTHER, ['`'] = TOK_OTHER, ['$'] = TOK_OTHER, ['%'] = TOK_OTHER,
+    ['^'] = TOK_OTHER, ['~'] = TOK_OTHER, ['\''] = TOK_OTHER,
+};
+
+static inline unsigned char class_at(const char *s)
+{
+    return class_of[(unsigned char)*s];
+}
+
+void lex_start(Lexer *l, uint16_t source, Str text)
+{
+    *l = (Lexer){ .at = text.data, .end = text.data + text.n, .line_start = text.data, .line = 1, .source = source };
+    if (text.n >= 3 && memcmp(text.data, "\xef\xbb\xbf", 3) == 0)
+        l->at += 3;
+}
+
+Loc lex_loc(const Lexer *l)
+{
+    ptrdiff_t column = l->at - l->line_start + 1;
+    return (Loc){ l->line, l->source, (uint16_t)(column > UINT16_MAX ? UINT16_MAX : column) };
+}
+
+/* At CR or LF; CR LF and LF CR are one line end. */
+static inline const char *line_end(Lexer *l, const char *s)
+{
+    char other = *s == '\n' ? '\r' : '\n';
+    s++;
+    if (s < l->end && *s == other)
+        s++;
+    l->line++;
+    l->line_start = s;
+    return s;
+}
+
+/* Comments nest. */
+static void block_comment(Parser *p, Lexer *l)
+{
+    Loc start = lex_loc(l);
+    const char *s = l->at + 2;
+    unsigned open = 1;
+    while (open) {
+        if (l->end - s < 2)
+            fail(p->diag, start, "No */ closing comment found.");
+        if (s[0] == '*' && s[1] == '/') {
+            s += 2;
+            open--;
+        } else if (s[0] == '/' && s[1] == '*') {
+            s += 2;
+            open++;
+        } else if (*s == '\n' || *s == '\r') {
+            s = line_end(l, s);
+        } else {
+            s++;
+        }
+    }
+    l->at = s;
+}
+
+static void skip_blank(Parser *p, Lexer *l)
+{
+    const char *s = l->at, *end = l->end;
+    while (s < end) {
+        unsigned char c = class_at(s);
+        if (c == C_BLANK) {
+            s++;
+        } else if (c == C_LINE) {
+            s = line_end(l, s);
+        } else if (c == C_SLASH && end - s > 1 && s[1] == '/') {
+            const char *lf = memchr(s, '\n', (size_t)(end - s));
+            const char *stop = lf ? lf : end;
+            const char *cr = memchr(s, '\r', (size_t)(stop - s));
+            s = cr ? cr : stop;
+        } else if (c == C_SLASH && end - s > 1 && s[1] == '*') {
+            l->at = s;
+            block_comment(p, l);
+            s = l->at;
+        } else {
+            break;
+        }
+    }
+    l->at = s;
+}
+
+static void word(Parser *p, Lexer *l, Token *out)
+{
+    const char *s = l->at, *end = l->end;
+    while (s < end && (class_at(s) == C_LETTER || class_at(s) == C_DIGIT))
+        s++;
+    size_t n = (size_t)(s - l->at);
+    if (n > MAX_LITERAL)
+        fail(p->diag, out->loc, "String too long.");
+    out->sym = symbol_intern(p, l->at, n);
+    out->kind = out->sym->keyword ? out->sym->keyword : TOK_NAME;
+    l->at = s;
+}
+
+/* Between the quotes as written: escapes are decoded where the string is used, as file names have none. */
+static void string(Parser *p, Lexer *l, Token *out)
+{
+    const char *s = l->at + 1, *start = s;
+    for (;; s++) {
+        if (s >= l->end)
+            fail(p->diag, out->loc, "Unterminated string literal.");
+        if (*s == '"')
+            break;
+        if (*s == '\\' && s + 1 < l->end) {
+            s++;
+            if (*s == '\n' || *s == '\r')
+                fail(p->diag, out->loc, "Unterminated string literal.");
+        } else if (*s == '\n' || *s == '\r') {
+            s = line_end(l, s) - 1;
+        }
+        if (s - start > MAX_LITERAL)
+            break;
+    }
+    if (s - start > MAX_LITERAL)
+        fail(p->diag, out->loc, "String too long.");
+    out->kind = TOK_STRING;
+    out->text = start;
+    out->n = (uint32_t)(s - start);
+    l->at = s + 1;
+}
+
+static void number(Parser *p, Lexer *l, Token *out)
+{
+    out->kind = TOK_NUMBER;
+    const char *start = l->at;
+    number_scan(&l->at, l->end, &out->number);
+    if (l->at < l->end && *l->at == '.' && memchr(start, '.', (size_t)(l->at - start)))
+        fail(p->diag, lex_loc(l), "Unexpected additional '.' in floating-point number");
+}
+
+/* '#' and a directive word are one token; '#' before anything else counts for nothing. */
+static bool hash(Parser *p, Lexer *l, Token *out)
+{
+    l->at++;
+    skip_blank(p, l);
+    if (l->at >= l->end || class_at(l->at) != C_LETTER)
+        return false;
+    Token name = { .loc = lex_loc(l) };
+    word(p, l, &name);
+    if (name.sym->is_directive) {
+        out->kind = TOK_HASH;
+        out->directive = name.sym->keyword;
+        out->n = 0;
+        out->sym = name.sym;
+    } else {
+        *out = name;
+    }
+    return true;
+}
+
+void lex_next(Parser *p, Lexer *l, Token *out)
+{
+    for (;;) {
+        unsigned char class = l->at < l->end ? class_at(l->at) : C_BLANK;
+        if (class == C_BLANK || class == C_LINE || class == C_SLASH) {
+            skip_blank(p, l);
+            class = l->at < l->end ? class_at(l->at) : C_BLANK;
+        }
+        out->loc = lex_loc(l);
+        if (l->at >= l->end) {
+            out->kind = TOK_END;
+            out->sym = NULL;
+            return;
+        }
+        switch (class) {
+        case C_LETTER: word(p, l, out); return;
+        case C_DIGIT: number(p, l, out); return;
+        case C_QUOTE: string(p, l, out); return;
+        case C_HASH:
+            if (hash(p, l, out))
+                return;
+            continue;
+        case C_DOT:
+            if (l->at + 1 < l->end && class_at(l->at + 1) == C_DIGIT) {
+                number(p, l, out);
+                return;
+            }
+            out->kind = TOK_DOT;
+            l->at++;
+            return;
+        case C_SLASH:
+            out->kind = TOK_SLASH;
+            l->at++;
+            return;
+        case C_LESS:
+        case C_MARK: {
+            char c = *l->at++;
+            bool equal = l->at < l->end && *l->at == '=';
+            out->kind = c == '<' ? TOK_LESS : mark_of[(unsigned char)c];
+            out->text = l->at - 1;
+            if (equal && (c == '<' || c == '>' || c == '!')) {
+                out->kind = c == '<' ? TOK_LESS_EQUAL : c == '>' ? TOK_GREATER_EQUAL : TOK_NOT_EQUAL;
+                l->at++;
+            }
+            return;
+        }
+        default:
+            fail(p->diag, out->loc, "Illegal character in input file, value is %02x.", (unsigned)(unsigned char)*l->at);
+        }
+    }
+}
+
+bool lex_accept(Parser *p, Lexer *l, char c)
+{
+    skip_blank(p, l);
+    if (l->at >= l->end || *l->at != c)
+        return false;
+    l->at++;
+    return true;
+}
+
+int lex_peek_char(Parser *p, Lexer *l)
+{
+    skip_blank(p, l);
+    return l->at < l->end ? (unsigned char)*l->at : -1;
+}
+
+/* Blanks and line ends; a comment simply ends the fast path. */
+static inline const char *fast_blank(Lexer *l, const char *s)
+{
+    while (s < l->end) {
+        unsigned char c = class_at(s);
+        if (c == C_BLANK)
+            s++;
+        else if (c == C_LINE)
+            s = line_end(l, s);
+        else
+            break;
+    }
+    return s;
+}
+
+bool lex_vector_literal(Lexer *lexer, bool inside, double out[3])
+{
+    Lexer l = *lexer;                          /* given up without a trace when anything is unusual */
+    const char *s = l.at;
+    if (!inside) {
+        s = fast_blank(&l, s);
+        if (s >= l.end || *s != '<')
+            return false;
+        s++;
+    }
+    for (int i = 0; i < 3; i++) {
+        s = fast_blank(&l, s);
+        bool negative = s < l.end && *s == '-';
+        s += negative;
+        if (s >= l.end || !(class_at(s) == C_DIGIT || (*s == '.' && s + 1 < l.end && class_at(s + 1) == C_DIGIT)))
+            return false;
+        double v = 0;
+        if (!number_scan(&s, l.end, &v))
+            return false;
+        out[i] = negative ? -v : v;
+        s = fast_blank(&l, s);
+        if (s >= l.end || *s != (i < 2 ? ',' : '>'))
+            return false;
+        s++;
+    }
+    l.at = s;
+    s = fast_blank(&l, s);
+    /* What may follow without going on with the expression. A letter may be a macro: not here. */
+    if (s >= l.end || !(*s == ',' || *s == '}' || *s == '<' || *s == ')' || class_at(s) == C_DIGIT))
+        return false;
+    /* `<1,2,3> <4` compares only where a full expression is asked for, and that never comes this way. */
+    l.at = s;
+    *lexer = l;
+    return true;
+}

@@ -1,0 +1,112 @@
+/* macro.c - macros: bodies of tokens that are read in the place of the call (01-language, section 14). */
+#include "sdl/parser.h"
+
+/* #macro NAME ( p1, p2 ... ) body #end; what `directive` says is the #macro itself, just read. */
+void macro_define(Parser *p, const Token *directive)
+{
+    uint32_t at = cursor_here(p);
+    Token name, t;
+    if (p->version < 310)
+        fail(p->diag, directive->loc, "Macros require a language version of at least 3.1.");
+    cursor_raw(p, &name);
+    Value *old = name.kind == TOK_NAME ? symbol_value(name.sym) : NULL;
+    if (name.kind != TOK_NAME || (old && old->kind != VALUE_MACRO && old->kind != VALUE_NONE)) {
+        p->token = name;
+        p->value = old;
+        p->have = true;
+        parse_expected(p, "undeclared identifier");
+    }
+    Macro *m = arena_new(p->arena, Macro);
+    Sym *parameter[MAX_PARAMETERS];
+    bool was = p->suspended;
+    p->suspended = true;
+    parse_expect(p, TOK_LPAREN);
+    p->suspended = was;
+    for (cursor_raw(p, &t); t.kind != TOK_RPAREN; cursor_raw(p, &t)) {
+        if (t.kind == TOK_COMMA)
+            continue;
+        if (t.kind != TOK_NAME)
+            fail(p->diag, t.loc, "Expected 'identifier', %s found instead",
+                 t.kind < N_KEYWORDS ? str_c(p->arena, t.sym->text) : "something else");
+        if (m->n_parameters == MAX_PARAMETERS)
+            fail(p->diag, t.loc, "Too many parameters: a macro can have at most %d.", MAX_PARAMETERS);
+        parameter[m->n_parameters++] = t.sym;
+    }
+    m->name = name.sym;
+    m->loc = name.loc;
+    m->parameter = arena_copy(p->arena, parameter, m->n_parameters * sizeof *parameter);
+    m->token = cursor_body(p, directive, at, &m->first, &m->last);
+    Value *v = old ? old : symbol_bind(p, name.sym, 0)->value;
+    value_clear(p, v);
+    *v = (Value){ .kind = VALUE_MACRO, .macro = m };
+}
+
+typedef struct Argument {
+    Value *by_reference;
+    Value value;
+} Argument;
+
+/* An identifier alone goes by reference, any other expression by value; functions always by value. */
+static void argument(Parser *p, Argument *a)
+{
+    int kind = parse_peek(p);
+    Value *v = p->value;
+    if (kind != TOK_NAME) {
+        value_parse(p, &a->value, false);
+        return;
+    }
+    if (!v || v->kind == VALUE_NONE) {
+        Str near = symbol_nearest(p, p->token.sym);
+        fail(p->diag, p->token.loc, "Cannot pass uninitialized identifier as macro parameter. Initialize identifier first.%s%.*s%s",
+             near.n ? " (did you mean '" : "", STR_ARGS(near), near.n ? "'?)" : "");
+    }
+    if (v->kind == VALUE_NUMBER) {
+        Num n;
+        num_from_value(&n, v);
+        parse_skip(p);
+        switch (parse_peek(p)) {
+        case TOK_DOT: case TOK_PLUS: case TOK_MINUS: case TOK_STAR: case TOK_SLASH:
+            expr_sum_rest(p, &n);
+            value_set_number(p, &a->value, &n);
+            break;
+        default:
+            a->by_reference = v;
+        }
+    } else if (v->kind == VALUE_FUNCTION || v->kind == VALUE_SPLINE) {
+        value_parse(p, &a->value, false);
+    } else {
+        parse_skip(p);
+        a->by_reference = v;
+    }
+}
+
+void macro_call(Parser *p, const Macro *m, Loc loc)
+{
+    bool was = p->suspended;
+    p->suspended = false;
+    cursor_stop_check(p);
+    cursor_deeper(p);
+    ArenaMark mark = arena_mark(&p->temp);
+    Argument *a = arena_array(&p->temp, Argument, m->n_parameters);
+    parse_expect(p, TOK_LPAREN);
+    for (uint32_t i = 0; i < m->n_parameters; i++) {
+        if (parse_peek(p) == TOK_RPAREN)
+            fail(p->diag, loc, "Expected %u parameters but only %u found.", m->n_parameters, i);
+        argument(p, &a[i]);
+        if (i + 1 < m->n_parameters)
+            parse_comma(p);
+    }
+    parse_expect(p, TOK_RPAREN);
+    symbol_push_table(p, loc);
+    for (uint32_t i = 0; i < m->n_parameters; i++) {
+        Binding *b = symbol_bind(p, m->parameter[i], p->n_tables - 1);
+        if (a[i].by_reference)
+            b->value = a[i].by_reference;
+        else
+            b->own = a[i].value;
+    }
+    arena_rewind(&p->temp, mark);
+    cursor_enter_macro(p, m, loc);
+    p->depth--;
+    p->suspended = was;
+}
