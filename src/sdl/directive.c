@@ -282,6 +282,7 @@ static void version(Parser *p)
     p->suspended = false;
     p->version = now;
     p->version_given = true;
+    block_version(p);
 }
 
 static void include(Parser *p, Loc loc)
