@@ -1,7 +1,7 @@
 /* interior.c - interior, media and material blocks (01-language, section 31). */
 #include "sdl/blocks.h"
 
-static const Interior INTERIOR_DEFAULT = { .ior = 1, .dispersion = 1, .dispersion_samples = 7 };
+static const Interior INTERIOR_DEFAULT = { .ior = 1, .dispersion = 1, .old_refraction = 1, .dispersion_samples = 7 };
 
 static Media media_default(const Parser *p)
 {
