@@ -38,13 +38,13 @@ static bool item(Parser *p, void *params)
     return true;
 }
 
-static float voxel(const Density *d, unsigned x, unsigned y, unsigned z)
+static double voxel(const Density *d, unsigned x, unsigned y, unsigned z)
 {
     const unsigned char *v = d->voxel + (((uint64_t)z * d->size[1] + y) * d->size[0] + x) * (unsigned)d->bytes;
     switch (d->bytes) {
-    case 1: return v[0] / 255.0f;
-    case 2: return (float)((v[0] << 8 | v[1]) / 65535.0);
-    default: return (float)(((uint32_t)v[0] << 24 | (uint32_t)v[1] << 16 | (uint32_t)v[2] << 8 | v[3]) / 4294967295.0);
+    case 1: return v[0] / 255.0;
+    case 2: return (v[0] << 8 | v[1]) / 65535.0;
+    default: return ((uint32_t)v[0] << 24 | (uint32_t)v[1] << 16 | (uint32_t)v[2] << 8 | v[3]) / 4294967295.0;
     }
 }
 
@@ -60,7 +60,7 @@ static double linear(const Density *d, const unsigned cell[3], const double f[3]
             at[a] = (cell[a] + high) % d->size[a];
             w *= high ? f[a] : 1 - f[a];
         }
-        sum += w * (double)voxel(d, at[0], at[1], at[2]);
+        sum += w * voxel(d, at[0], at[1], at[2]);
     }
     return sum;
 }
@@ -85,7 +85,7 @@ static double cubic(const Density *d, const unsigned cell[3], const double f[3])
         for (int j = 0; j < 4; j++) {
             float along_z[4];
             for (int k = 0; k < 4; k++)
-                along_z[k] = voxel(d, at[0][i], at[1][j], at[2][k]);
+                along_z[k] = (float)voxel(d, at[0][i], at[1][j], at[2][k]);
             along_y[j] = cubic_through(along_z, (float)f[2]);
         }
         along_x[i] = cubic_through(along_y, (float)f[1]);
@@ -110,7 +110,7 @@ static double value(const void *params, const PatternPoint *at)
         f[a] = u - floor(u);
     }
     switch (d->interpolate) {
-    case 0: return (double)voxel(d, cell[0], cell[1], cell[2]);
+    case 0: return voxel(d, cell[0], cell[1], cell[2]);
     case 1: return linear(d, cell, f);
     default: return cubic(d, cell, f);
     }
