@@ -13,7 +13,7 @@
     ROW(planar) ROW(spherical) ROW(cylindrical) ROW(boxed) ROW(onion) ROW(radial) ROW(leopard) \
     ROW(image_pattern) ROW(pigment_pattern) ROW(object) ROW(spiral1) ROW(spiral2) ROW(ripples) ROW(waves) \
     ROW(quilted) ROW(crackle) ROW(cells) ROW(mandel) ROW(julia) ROW(magnet) ROW(density_file) ROW(slope) \
-    ROW(aoi) ROW(tiling)
+    ROW(aoi) ROW(tiling) ROW(pavement)
 
 #define DECLARE_SHAPE(name) extern const ShapeOps shape_##name;
 #define DECLARE_PATTERN(name) extern const PatternOps pattern_##name;
