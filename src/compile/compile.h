@@ -15,7 +15,7 @@ Query *query_new(Arena *arena, const Registry *registry, Diag *diag);
 bool query_trace(void *query, const Object *o, Vec3 from, Vec3 direction, Vec3 *point, Vec3 *normal);
 bool query_inside(void *query, const Object *o, Vec3 p);
 Bounds query_extent(void *query, const Object *o);
-const World *query_world(void *query, const Object *o);    /* lives as long as `arena` */
+const World *query_world(void *query, const Object *o, uint32_t *item);    /* lives as long as `arena`; NULL: contains nothing */
 
 /* A readable plan of the World: what is modelled, what was dropped and why, which shortcuts are on. */
 Str compile_explain(Arena *a, const World *w);

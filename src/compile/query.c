@@ -97,6 +97,13 @@ bool query_inside(void *query, const Object *o, Vec3 p)
     return e->item != NO_ITEM && item_inside(e->world, e->item, scaled(p, e->world->unit));
 }
 
+const World *query_world(void *query, const Object *o, uint32_t *item)
+{
+    const Entry *e = entry_of(query, o);
+    *item = e->item;
+    return e->item != NO_ITEM ? e->world : NULL;
+}
+
 /* ---- extents ---- */
 
 /* POV: boxes are a corner and lengths in single precision, and end at 1e10 (08-shapes, section 4.1). */

@@ -57,7 +57,7 @@ const Pigment *parse_pigment(Parser *p);       /* at `pigment` */
 const Normal *parse_normal(Parser *p);         /* at `normal` */
 const Texture *parse_texture(Parser *p);       /* at `texture`: one block; its layers */
 const Interior *parse_interior(Parser *p);
-const struct World *parse_world_of(Parser *p, const Object *o);       /* SdlHost.world */
+const struct World *parse_world_of(Parser *p, const Object *o, uint32_t *item);       /* SdlHost.world */
 /* The inside of a pigment block without braces or keyword, as in map entries: starts from the default pigment. */
 const Pigment *parse_pigment_body(Parser *p);
 bool parse_transform(Parser *p, Affine *composed);     /* one translate/rotate/scale/matrix/transform item, composed on */

@@ -5,7 +5,8 @@
 #include "world/prim.h"
 
 typedef struct Params {
-    const World *world;
+    const World *world;                        /* NULL: nothing is inside */
+    uint32_t item;
 } Params;
 
 /* The list of items stands inside the same braces; who reads the list closes them. */
@@ -16,17 +17,14 @@ static void parse(Parser *p, void *params)
     if (o == NULL)
         parse_fail(p, "the object pattern needs an object here");
     parse_comma(p);
-    ((Params *)params)->world = parse_world_of(p, o);
+    Params *own = params;
+    own->world = parse_world_of(p, o, &own->item);
 }
 
 static double value(const void *params, const PatternPoint *at)
 {
-    const World *w = ((const Params *)params)->world;
-    Vec3 p = scaled(at->p, w->unit);
-    for (uint32_t i = 0; i < w->n_bodies; i++)
-        if (item_inside(w, w->body[i], p))
-            return 1;
-    return 0;
+    const Params *own = params;
+    return own->world != NULL && item_inside(own->world, own->item, scaled(at->p, own->world->unit));
 }
 
 const PatternOps pattern_object = {
