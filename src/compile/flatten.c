@@ -401,20 +401,28 @@ uint32_t flatten_whole(Compile *c, const Object *o, const Inherited *from)
 
 /* ---- the outermost level ---- */
 
-/* Will the accelerator, asked for what is around a point, find the item whenever the point is inside? */
+/* Is there, around every point inside the item, a leaf of it that the accelerator knows by its box? */
 static bool found_by_box(const Compile *c, uint32_t item)
 {
-    if (is_node(item) && (c->csg.data[~item].flags & (CSG_CLIP | CSG_BOUND)))
-        return false;                          /* asked without its clips (world_interiors_at) */
-    Reach r = item_reach(c, item);
-    return !r.co && bounds_is_finite(r.box);
+    if (!is_node(item)) {
+        Reach r = item_reach(c, item);
+        return !r.co && bounds_is_finite(r.box) && !(c->prim.data[item].flags & PRIM_HELPER);
+    }
+    const CsgNode *node = &c->csg.data[~item];
+    uint32_t n = node->flags & CSG_BOUND ? 1 : node->n;
+    bool every = node->op == CSG_ANY;
+    for (uint32_t i = 0; i < n; i++)
+        if (found_by_box(c, c->csg_child.data[node->first + i]) != every)
+            return !every;
+    return every;
 }
 
 static void body_add(Compile *c, uint32_t item)
 {
-    if (is_node(item) || !(c->prim.data[item].flags & PRIM_PATCH))
-        if (!found_by_box(c, item))
-            array_push(c->arena, &c->body, item);
+    bool patch = !is_node(item) && (c->prim.data[item].flags & PRIM_PATCH);
+    bool cut = is_node(item) && (c->csg.data[~item].flags & (CSG_CLIP | CSG_BOUND));   /* asked without it */
+    if (!patch && (cut || !found_by_box(c, item)))
+        array_push(c->arena, &c->body, item);
 }
 
 static bool dissolves(const Object *o, const Inherited *from)
