@@ -4,7 +4,7 @@
 void background_block(Parser *p)
 {
     Globals *g = &parse_blocks(p)->scene->globals;
-    parse_open(p);
+    block_open(p, "background");
     g->background = parse_colour(p);
     g->has_background = true;
     block_close(p, "background");
@@ -57,7 +57,7 @@ static bool fog_item(Parser *p, FogDef *f)
 
 const FogDef *fog_block(Parser *p)
 {
-    parse_open(p);
+    block_open(p, "fog");
     const FogDef *known = parse_take_block(p, BLOCK_FOG);
     FogDef f = { .type = 1, .turb_depth = 0.5, .turbulence = TURBULENCE_DEFAULT, .up = { 0, 1, 0 } };
     if (known != NULL)
@@ -79,7 +79,7 @@ static double degrees(Parser *p, const char *word)
 {
     double a = fabs(parse_float(p));
     if (a > 360)
-        parse_fail(p, "rainbow: %s must be between 0 and 360 degrees.", word);
+        parse_fail(p, "Illegal %s angle in rainbow (Use value from 0 to 360 degrees).", word);
     return a;
 }
 
@@ -93,8 +93,8 @@ static bool rainbow_item(Parser *p, Bow *b)
     case KW_JITTER: parse_skip(p); r->jitter = parse_float(p); return true;
     case KW_DIRECTION: parse_skip(p); r->direction = parse_vec3(p); b->has_direction = true; return true;
     case KW_UP: parse_skip(p); r->up = parse_vec3(p); return true;
-    case KW_ARC_ANGLE: parse_skip(p); r->arc_angle = degrees(p, "arc_angle"); b->has_arc = true; return true;
-    case KW_FALLOFF_ANGLE: parse_skip(p); r->falloff_angle = degrees(p, "falloff_angle"); b->has_falloff = true; return true;
+    case KW_ARC_ANGLE: parse_skip(p); r->arc_angle = degrees(p, "arc"); b->has_arc = true; return true;
+    case KW_FALLOFF_ANGLE: parse_skip(p); r->falloff_angle = degrees(p, "falloff"); b->has_falloff = true; return true;
     case KW_COLOR_MAP: parse_skip(p); r->map = parse_colour_map(p); return true;
     default: return false;
     }
@@ -104,27 +104,27 @@ static void check_rainbow(Parser *p, Bow *b)
 {
     RainbowDef *r = &b->r;
     if (length2(r->direction) == 0)
-        parse_fail(p, "Direction vector of rainbow is zero.");
+        parse_fail(p, "Rainbow's direction vector is zero.");
     if (length2(r->up) == 0)
-        parse_fail(p, "Up vector of rainbow is zero.");
+        parse_fail(p, "Rainbow's up vector is zero.");
     r->antisolar = normalized(r->direction);
     Vec3 right = cross(normalized(r->up), r->antisolar);
     if (max_abs(right) <= 1e-10)
-        parse_fail(p, "Up and direction vectors of rainbow are co-linear.");
+        parse_fail(p, "Rainbow's up and direction vector are co-linear.");
     r->up = normalized(cross(r->antisolar, right));
     if (!b->has_arc)
         r->arc_angle = 360;                    /* POV: a falloff_angle alone does nothing visible */
     else if (!b->has_falloff)
         r->falloff_angle = r->arc_angle;
     if (b->has_arc && b->has_falloff && r->arc_angle < r->falloff_angle)
-        parse_fail(p, "Full angle smaller than falloff angle in rainbow.");
+        parse_fail(p, "Arc angle is smaller than falloff angle in rainbow.");
     if (!b->has_falloff && !b->has_arc)
         r->falloff_angle = 360;
 }
 
 const RainbowDef *rainbow_block(Parser *p)
 {
-    parse_open(p);
+    block_open(p, "rainbow");
     const RainbowDef *known = parse_take_block(p, BLOCK_RAINBOW);
     Bow b = { .r = { .distance = 1e7, .up = { 0, 1, 0 } } };
     if (known != NULL) {
@@ -147,7 +147,7 @@ const SkySphere *sky_sphere_block(Parser *p)
     Pigments list = { 0 };
     Affine move;
     SkySphere s = { .emission = { 1, 1, 1 }, .place = affine_identity() };
-    parse_open(p);
+    block_open(p, "sky_sphere");
     const SkySphere *known = parse_take_block(p, BLOCK_SKY_SPHERE);
     if (known != NULL) {
         s = *known;
@@ -156,7 +156,7 @@ const SkySphere *sky_sphere_block(Parser *p)
     }
     for (;;) {
         if (parse_accept(p, KW_PIGMENT)) {
-            parse_open(p);
+            block_open(p, "pigment");
             const Pigment *pigment = pigment_body(p, &PIGMENT_EMPTY, USE_PIGMENT);
             block_close(p, "pigment");
             array_push(parse_arena(p), &list, pigment);

@@ -122,8 +122,10 @@ static void blur_samples(Parser *p, CameraDef *c)
         if (c->blur_samples_min <= 0)
             parse_fail(p, "Illegal number of focal blur samples.");
     }
-    if (c->blur_samples <= 0 || c->blur_samples_min > c->blur_samples)
+    if (c->blur_samples <= 0)
         parse_fail(p, "Illegal number of focal blur samples.");
+    if (c->blur_samples_min > c->blur_samples)
+        parse_fail(p, "Focal blur samples minimum must not be larger than maximum.");
 }
 
 static bool lens_item(Parser *p, CameraDef *c, int keyword)
@@ -150,7 +152,7 @@ static bool lens_item(Parser *p, CameraDef *c, int keyword)
         return true;
     case KW_BOKEH:
         parse_skip(p);
-        parse_open(p);
+        block_open(p, "bokeh");
         if (parse_peek(p) != KW_PIGMENT)
             parse_expected(p, "pigment");
         c->bokeh = parse_pigment(p);
@@ -212,7 +214,7 @@ typedef ARRAY(const Object *) Objects;
 static void mesh_camera(Parser *p, CameraDef *c)
 {
     Objects mesh = { 0 };
-    parse_open(p);
+    block_open(p, "mesh_camera");
     c->rays_per_pixel = parse_int(p);
     parse_comma(p);
     c->distribution = parse_int(p);
@@ -260,7 +262,7 @@ static bool type_word(Parser *p, CameraDef *c)
         if (keyword == KW_CYLINDER) {
             int n = parse_int(p);
             if (n < 1 || n > 4)
-                parse_fail(p, "Cylinder type of a camera must be 1, 2, 3 or 4, not %d.", n);
+                parse_fail(p, "Invalid cylinder camera type, valid are types 1 to 4.");
             c->kind = (CameraKind)(CAMERA_CYLINDER_1 + n - 1);
         } else if (keyword == KW_MESH_CAMERA) {
             mesh_camera(p, c);
@@ -309,12 +311,25 @@ static CameraDef old_camera(Parser *p, Draft *d)
     return d->c;
 }
 
+static const char *modifier_of(CameraKind kind)
+{
+    static const char *const what[] = {
+        [CAMERA_PERSPECTIVE] = "perspective camera modifier", [CAMERA_ORTHOGRAPHIC] = "orthographic camera modifier",
+        [CAMERA_FISHEYE] = "fisheye camera modifier", [CAMERA_ULTRA_WIDE_ANGLE] = "ultra_wide_angle camera modifier",
+        [CAMERA_OMNIMAX] = "omnimax camera modifier", [CAMERA_PANORAMIC] = "panoramic camera modifier",
+        [CAMERA_SPHERICAL] = "spherical camera modifier", [CAMERA_CYLINDER_1] = "cylinder camera modifier",
+        [CAMERA_CYLINDER_2] = "cylinder camera modifier", [CAMERA_CYLINDER_3] = "cylinder camera modifier",
+        [CAMERA_CYLINDER_4] = "cylinder camera modifier", [CAMERA_MESH] = "mesh camera modifier",
+    };
+    return what[kind];
+}
+
 CameraDef camera_block(Parser *p)
 {
     Blocks *b = parse_blocks(p);
     Affine place = affine_identity();
     Draft d = { .c = b->default_camera, .old = parse_version(p) < 350 };
-    parse_open(p);
+    block_open(p, "camera");
     const CameraDef *known = parse_take_block(p, BLOCK_CAMERA);
     if (known != NULL)
         d.c = *known;
@@ -333,9 +348,9 @@ CameraDef camera_block(Parser *p)
         ;
     while (item(p, &d, &place))
         ;
-    CameraDef other = d.c;
-    if (parse_peek(p) != TOK_CLOSE && type_word(p, &other) && other.kind != d.c.kind)
-        parse_fail(p, "the type of a camera comes before its other items");
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        if (parse_peek(p) == kinds[i].keyword && kinds[i].kind != d.c.kind)
+            parse_expected(p, modifier_of(d.c.kind));
     block_close(p, "camera");
     finish(p, &d, &place);
     return d.c;

@@ -31,7 +31,7 @@ static void reflection_block(Parser *p, Finish *f)
             parse_skip(p);
             double on = parse_optional_float(p, 1);
             if (on != 0 && on != 1)
-                parse_fail(p, "reflection { fresnel } takes 0 or 1, not %g", on);
+                parse_fail(p, "fresnel must be true or false");
             f->reflection_fresnel = on == 1;
             break;
         }
@@ -52,7 +52,7 @@ static void reflection_block(Parser *p, Finish *f)
 
 static void irid(Parser *p, Finish *f)
 {
-    parse_open(p);
+    block_open(p, "irid");
     f->irid = number(p);
     for (;;) {
         if (parse_accept(p, KW_THICKNESS))
@@ -67,7 +67,7 @@ static void irid(Parser *p, Finish *f)
 
 static void subsurface(Parser *p, Finish *f)
 {
-    parse_open(p);
+    block_open(p, "subsurface");
     f->has_subsurface = true;
     for (;;) {
         if (parse_accept(p, KW_TRANSLUCENCY))
@@ -153,7 +153,7 @@ static void apply_albedo(Finish *f)
 
 const Finish *finish_block(Parser *p, const Finish *base)
 {
-    parse_open(p);
+    block_open(p, "finish");
     const Finish *known = parse_take_block(p, BLOCK_FINISH);
     if (known != NULL)
         base = known;

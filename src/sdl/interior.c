@@ -24,7 +24,7 @@ static float number(Parser *p)
 
 static void scattering(Parser *p, Scattering *s)
 {
-    parse_open(p);
+    block_open(p, "scattering");
     s->type = parse_int(p);
     if (s->type < 1 || s->type > 5)
         parse_warn(p, "Scattering type %d is not one of 1 to 5.", s->type);
@@ -54,9 +54,9 @@ static void samples(Parser *p, Media *m)
     if (parse_at_number(p))
         m->samples_max = parse_int(p);
     if (m->samples_min < 1)
-        parse_fail(p, "Min samples < 1.");
+        parse_fail(p, "At least one sample per interval is needed in media.");
     if (m->samples_max < m->samples_min)
-        parse_fail(p, "Max samples smaller than min samples.");
+        parse_fail(p, "Maximum number of samples per interval smaller than minimum number.");
 }
 
 static void add_density(Parser *p, Media *m, const Pigment *density)
@@ -79,7 +79,7 @@ static void move_densities(Parser *p, Media *m, const Moves *moves)
 const Pigment *density_block(Parser *p)
 {
     parse_expect(p, KW_DENSITY);
-    parse_open(p);
+    block_open(p, "density");
     const Pigment *density = pigment_body(p, &PIGMENT_EMPTY, USE_DENSITY);
     block_close(p, "density");
     return density;
@@ -94,13 +94,13 @@ static bool media_item(Parser *p, Media *m)
         parse_skip(p);
         m->method = parse_int(p);
         if (m->method < 1 || m->method > 3)
-            parse_fail(p, "Media method must be 1, 2 or 3, not %d.", m->method);
+            parse_fail(p, "Sample method choices are 1, 2, or 3.");
         break;
     case KW_INTERVALS:
         parse_skip(p);
         m->intervals = parse_int(p);
         if (m->intervals < 1)
-            parse_fail(p, "At least one interval needed in media.");
+            parse_fail(p, "At least one interval is needed in media.");
         break;
     case KW_SAMPLES: parse_skip(p); samples(p, m); break;
     case KW_RATIO: parse_skip(p); m->ratio = number(p); break;
@@ -108,20 +108,20 @@ static bool media_item(Parser *p, Media *m)
         parse_skip(p);
         m->confidence = number(p);
         if (!(m->confidence >= 0 && m->confidence < 1))
-            parse_fail(p, "Illegal confidence value %g: it goes from 0 to less than 1.", (double)m->confidence);
+            parse_fail(p, "Illegal confidence value in media.");
         break;
     case KW_VARIANCE: parse_skip(p); m->variance = number(p); break;
     case KW_AA_THRESHOLD:
         parse_skip(p);
         m->aa_threshold = number(p);
         if (!(m->aa_threshold > 0))
-            parse_fail(p, "Media aa_threshold must be positive.");
+            parse_fail(p, "aa_threshold in media must be greater than zero.");
         break;
     case KW_AA_LEVEL:
         parse_skip(p);
         m->aa_level = parse_int(p);
         if (m->aa_level < 1)
-            parse_fail(p, "Media aa_level must be positive.");
+            parse_fail(p, "aa_level in media must be at least one.");
         break;
     case KW_JITTER: parse_skip(p); m->jitter = number(p); break;
     case KW_ABSORPTION: parse_skip(p); m->absorption = parse_rgb(p); break;
@@ -141,7 +141,7 @@ static bool media_item(Parser *p, Media *m)
 const Media *media_block(Parser *p)
 {
     Loc loc = parse_loc(p);
-    parse_open(p);
+    block_open(p, "media");
     const Media *known = parse_take_block(p, BLOCK_MEDIA);
     Media m = known != NULL ? *known : media_default(p);
     m.loc = loc;
@@ -163,7 +163,7 @@ static void add_media(Parser *p, Interior *i, const Media *media)
 const Interior *interior_block(Parser *p, const Interior *base)
 {
     Loc loc = parse_loc(p);
-    parse_open(p);
+    block_open(p, "interior");
     const Interior *known = parse_take_block(p, BLOCK_INTERIOR);
     Interior i = known != NULL ? *known : base != NULL ? *base : INTERIOR_DEFAULT;
     i.loc = loc;
@@ -231,7 +231,7 @@ const Interior *interior_moved(Parser *p, const Interior *interior, const Moves 
 
 const Material *material_block(Parser *p)
 {
-    parse_open(p);
+    block_open(p, "material");
     const Material *known = parse_take_block(p, BLOCK_MATERIAL);
     Material m = known != NULL ? *known : (Material){ 0 };
     for (;;) {

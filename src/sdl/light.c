@@ -45,7 +45,7 @@ static void area_light(Parser *p, const ObjectDraft *d, LightSource *l)
     l->size1 = (int)parse_next_float(p);
     l->size2 = (int)parse_next_float(p);
     if (l->size1 == 0 || l->size2 == 0)
-        parse_fail(p, "Illegal size specification for area_light: %d by %d.", l->size1, l->size2);
+        parse_fail(p, "Area size must be greater than zero.");
 }
 
 /* An object that belongs to the light, between the braces of looks_like or projected_through. */
@@ -54,7 +54,7 @@ static ObjectDraft attached(Parser *p, const Object *already, const char *word)
     parse_skip(p);
     if (already != NULL)
         parse_fail(p, "Only one %s allowed per light_source.", word);
-    parse_open(p);
+    block_open(p, word);
     const Object *o = parse_object(p);
     if (o == NULL)
         parse_expected(p, "object");
@@ -107,7 +107,7 @@ static bool area_item(Parser *p, ObjectDraft *d, LightSource *l, int keyword)
     case KW_JITTER: area_flag(p, l, keyword); l->jitter = true; return true;
     case KW_CIRCULAR:
         if (l->area && (l->size1 <= 1 || l->size2 <= 1))
-            parse_fail(p, "Circular area lights must have more than one point per axis.");
+            parse_fail(p, "Circular area light must have more than 1 point per axis");
         area_flag(p, l, keyword);
         l->circular = true;
         return true;
@@ -181,7 +181,7 @@ Object *light_block(Parser *p)
     LightSource *l = arena_new(parse_arena(p), LightSource);
     *l = (LightSource){ .point_at = { 0, 0, 1 }, .media_interaction = true, .adaptive = 100, .loc = d.o.loc };
     parse_expect(p, KW_LIGHT_SOURCE);
-    parse_open(p);
+    block_open(p, "light_source");
     const Object *known = parse_take_block(p, BLOCK_OBJECT);
     if (known != NULL && known->kind != OBJECT_LIGHT)
         parse_fail(p, "the identifier in light_source { } is not a light source");

@@ -50,11 +50,11 @@ static BlendMap finished(const Entries *e, MapKind kind)
 BlendMap parse_colour_map(Parser *p)
 {
     Entries e = { 0 };
-    parse_open(p);
+    block_open(p, "color_map");
     const BlendMap *known = parse_take_block(p, BLOCK_COLOUR_MAP);
     if (known == NULL) {
         if (parse_peek(p) != TOK_LBRACKET)
-            parse_expected(p, "[");
+            parse_fail(p, "Must have at least one color in color map.");
         while (parse_accept(p, TOK_LBRACKET)) {
             colour_entry(p, &e);
             parse_expect(p, TOK_RBRACKET);
@@ -97,7 +97,7 @@ static BlockKind block_of(MapKind kind, PatternUse use)
 BlendMap parse_map(Parser *p, MapKind kind, PatternUse use, bool weights)
 {
     Entries e = { 0 };
-    parse_open(p);
+    block_open(p, "map");
     const BlendMap *known = parse_take_block(p, block_of(kind, use));
     if (known == NULL) {
         if (parse_peek_block(p) != BLOCK_NONE)
@@ -157,7 +157,7 @@ BlendMap parse_pattern_list(Parser *p, const PatternOps *ops, PatternUse use)
         } else {
             if (!parse_accept(p, keyword))
                 break;
-            parse_open(p);
+            block_open(p, kind == MAP_NORMAL ? "normal" : kind == MAP_TEXTURE ? "texture" : "pigment");
             entry = map_item(p, kind, use);
             block_close(p, kind == MAP_NORMAL ? "normal" : kind == MAP_TEXTURE ? "texture" : "pigment");
         }

@@ -70,10 +70,10 @@ static bool modifier(Parser *p, Normal *n, PatternDraft *d)
     case KW_ACCURACY: parse_skip(p); n->accuracy = (float)parse_float(p); return true;
     case KW_NO_BUMP_SCALE: parse_skip(p); n->no_bump_scale = true; return true;
     case KW_COORDS: case KW_SIZE:
-        parse_fail(p, "Keyword '%s' cannot be used with non-facets.", parse_word(keyword));
+        parse_fail(p, "Keyword '%s' can only be used in a facets statement.", parse_word(keyword));
     case KW_SLOPE_MAP: case KW_NORMAL_MAP:
-        if (n->kind == NORMAL_BUMP_MAP || n->kind == NORMAL_FACETS || list || (n->kind == NORMAL_AVERAGE && keyword == KW_SLOPE_MAP))
-            parse_fail(p, "Cannot use %s with this pattern type.", parse_word(keyword));
+        if (n->kind == NORMAL_BUMP_MAP || list || (n->kind == NORMAL_AVERAGE && keyword == KW_SLOPE_MAP))
+            parse_fail(p, "Keyword '%s' cannot be used with this normal type.", parse_word(keyword));
         parse_skip(p);
         n->map = parse_map(p, keyword == KW_SLOPE_MAP ? MAP_SLOPE : MAP_NORMAL, USE_NORMAL, n->kind == NORMAL_AVERAGE);
         return true;
@@ -119,7 +119,7 @@ const Normal *normal_body(Parser *p, const Normal *base)
 const Normal *parse_normal(Parser *p)
 {
     parse_expect(p, KW_NORMAL);
-    parse_open(p);
+    block_open(p, "normal");
     const Normal *n = normal_body(p, parse_blocks(p)->default_texture->normal);
     block_close(p, "normal");
     return n;

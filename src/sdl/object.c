@@ -131,15 +131,21 @@ static void add_bounds(Parser *p, const Object *const **to, uint32_t *n, const c
     *n = list.n;
 }
 
+static void link(Object *o)
+{
+    if (o->n_clipped_by > 0)
+        o->flags |= OBJECT_BOUNDED_BY_CLIP;
+}
+
 static void clipped_by(Parser *p, Object *o)
 {
-    parse_open(p);
+    block_open(p, "clipped_by");
     if (parse_accept(p, KW_BOUNDED_BY)) {
         if (o->n_clipped_by > 0)
-            parse_fail(p, "Cannot link clips with previous clips.");
+            parse_fail(p, "Cannot link bounds with previous clips.");
         o->clipped_by = o->bounded_by;
         o->n_clipped_by = o->n_bounded_by;
-        o->flags |= OBJECT_BOUNDED_BY_CLIP;
+        link(o);
         block_close(p, "clipped_by");
         return;
     }
@@ -150,13 +156,13 @@ static void clipped_by(Parser *p, Object *o)
 
 static void bounded_by(Parser *p, Object *o)
 {
-    parse_open(p);
+    block_open(p, "bounded_by");
     if (parse_accept(p, KW_CLIPPED_BY)) {
         if (o->n_bounded_by > 0)
-            parse_fail(p, "Cannot link bounds with previous bounds.");
+            parse_fail(p, "Cannot link clips with previous bounds.");
         o->bounded_by = o->clipped_by;
         o->n_bounded_by = o->n_clipped_by;
-        o->flags |= OBJECT_BOUNDED_BY_CLIP;
+        link(o);
         block_close(p, "bounded_by");
         return;
     }
@@ -267,7 +273,7 @@ static void csg_flag(Parser *p, Object *o, int keyword)
 
 static void radiosity(Parser *p, Object *o)
 {
-    parse_open(p);
+    block_open(p, "radiosity");
     while (parse_accept(p, KW_IMPORTANCE)) {
         o->importance = (float)parse_float(p);
         if (!(o->importance > 0 && o->importance <= 1))
@@ -376,7 +382,7 @@ static Object *shape(Parser *p, const ShapeOps *ops)
 {
     Loc loc = parse_loc(p);
     parse_skip(p);
-    parse_open(p);
+    block_open(p, ops->keyword);
     const Object *known = parse_take_block(p, BLOCK_OBJECT);
     if (known != NULL)
         return copy_with_modifiers(p, known);
@@ -391,7 +397,7 @@ static Object *csg(Parser *p, ObjectKind kind)
 {
     Loc loc = parse_loc(p);
     parse_skip(p);
-    parse_open(p);
+    block_open(p, kind_word[kind]);
     const Object *known = parse_take_block(p, BLOCK_OBJECT);
     if (known != NULL)
         return copy_with_modifiers(p, known);
@@ -414,7 +420,7 @@ static Object *csg(Parser *p, ObjectKind kind)
 static Object *object_block(Parser *p)
 {
     parse_skip(p);
-    parse_open(p);
+    block_open(p, "object");
     const Object *o = parse_object(p);
     if (o == NULL)
         parse_expected(p, "object");
@@ -468,7 +474,7 @@ bool scene_object(Parser *p)
 const PhotonsBlock *photons_block(Parser *p, const PhotonsBlock *base, bool light)
 {
     PhotonsBlock f = base != NULL ? *base : (PhotonsBlock){ 0 };
-    parse_open(p);
+    block_open(p, "photons");
     for (;;) {
         int keyword = parse_peek(p);
         if (keyword == KW_REFRACTION || keyword == KW_REFLECTION) {
@@ -494,8 +500,9 @@ const PhotonsBlock *photons_block(Parser *p, const PhotonsBlock *base, bool ligh
         }
     }
     if (f.pass_through && f.target && f.refraction_on) {
-        parse_warn(p, "Cannot use pass_through with target and refraction: pass_through is off.");
-        f.pass_through = false;
+        parse_warn(p, "Cannot use pass_through with refraction & target. Turning off refraction.");
+        f.refraction_on = false;
+        f.refraction_off = true;
     }
     block_close(p, "photons");
     return arena_copy(parse_arena(p), &f, sizeof f);

@@ -116,28 +116,38 @@ static bool choose_wave(Parser *p, PatternDraft *d, Wave wave)
 }
 
 /* Words that belong to certain patterns: what to say when they stand in another. */
-static const struct { int keyword; const char *where; } belongs[] = {
-    { KW_AGATE_TURB, "non-agate" }, { KW_BRICK_SIZE, "non-brick" }, { KW_MORTAR, "non-brick" },
-    { KW_CONTROL0, "non-quilted" }, { KW_CONTROL1, "non-quilted" }, { KW_SOLID, "non-crackle" },
-    { KW_METRIC, "non-crackle" }, { KW_FORM, "non-crackle" }, { KW_OFFSET, "non-crackle" },
-    { KW_EXPONENT, "non-fractal" }, { KW_EXTERIOR, "non-fractal" }, { KW_INTERIOR, "non-fractal" },
-    { KW_INTERPOLATE, "non-density_file" }, { KW_NUMBER_OF_SIDES, "non-pavement" },
-    { KW_NUMBER_OF_TILES, "non-pavement" }, { KW_PATTERN, "non-pavement" },
+static const struct { int keyword; const char *what; } belongs[] = {
+    { KW_AGATE_TURB, "cannot be used with non-agate" },
+    { KW_BRICK_SIZE, "cannot be used with non-brick" },
+    { KW_MORTAR, "cannot be used with non-brick" },
+    { KW_CONTROL0, "cannot be used with this pattern" },
+    { KW_CONTROL1, "cannot be used with this pattern" },
+    { KW_SOLID, "can only be used in a crackle statement" },
+    { KW_METRIC, "can only be used in a facets or crackle statement" },
+    { KW_FORM, "can only be used in a crackle or pavement statement" },
+    { KW_OFFSET, "can only be used in a crackle statement" },
+    { KW_EXPONENT, "can only be used in a mandel or julia statement" },
+    { KW_EXTERIOR, "can only be used in a mandel, julia, magnet or pavement statement" },
+    { KW_INTERIOR, "can only be used in a mandel, julia, magnet or pavement statement" },
+    { KW_INTERPOLATE, "can only be used in a density_file statement" },
+    { KW_NUMBER_OF_SIDES, "can only be used in a pavement statement" },
+    { KW_NUMBER_OF_TILES, "can only be used in a pavement statement" },
+    { KW_PATTERN, "can only be used in a pavement statement" },
 };
 
 static const char *belongs_to(int keyword)
 {
     for (size_t i = 0; i < sizeof belongs / sizeof *belongs; i++)
         if (belongs[i].keyword == keyword)
-            return belongs[i].where;
+            return belongs[i].what;
     return NULL;
 }
 
 static bool pattern_item(Parser *p, PatternDraft *d, int keyword)
 {
     const PatternOps *ops = d->pattern.ops;
-    const char *where = belongs_to(keyword);
-    if (where == NULL)
+    const char *what = belongs_to(keyword);
+    if (what == NULL)
         return false;
     if (ops != NULL && ops->item != NULL) {
         if (!d->own_params) {
@@ -150,7 +160,7 @@ static bool pattern_item(Parser *p, PatternDraft *d, int keyword)
         if (ops->item(p, (void *)(uintptr_t)d->pattern.params))
             return true;
     }
-    parse_fail(p, "Keyword '%s' cannot be used with %s.", parse_word(keyword), where);
+    parse_fail(p, "Keyword '%s' %s.", parse_word(keyword), what);
 }
 
 bool pattern_modifier(Parser *p, PatternDraft *d)
@@ -184,7 +194,7 @@ bool pattern_modifier(Parser *p, PatternDraft *d)
         parse_skip(p);
         int n = parse_int(p);
         if (n < 0 || n > 3)
-            parse_fail(p, "Value for noise_generator in pattern must be between 0 and 3.");
+            parse_fail(p, "Value for noise_generator must be 0, 1, 2, or 3.");
         d->pattern.noise_generator = (uint8_t)n;
         d->pattern.scene_noise = n == 0;
         d->changed = true;

@@ -173,7 +173,7 @@ const Pigment *pigment_body(Parser *p, const Pigment *base, PatternUse use)
 const Pigment *parse_pigment(Parser *p)
 {
     parse_expect(p, KW_PIGMENT);
-    parse_open(p);
+    block_open(p, "pigment");
     const Pigment *g = parse_pigment_body(p);
     block_close(p, "pigment");
     return g;

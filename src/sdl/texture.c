@@ -98,7 +98,7 @@ const Texture *texture_part(Parser *p, const Texture *top)
     if (keyword == KW_FINISH) {
         finish = finish_block(p, finish);
     } else {
-        parse_open(p);
+        block_open(p, keyword == KW_PIGMENT ? "pigment" : "normal");
         if (keyword == KW_PIGMENT)
             pigment = pigment_body(p, pigment, USE_PIGMENT);
         else
@@ -208,33 +208,37 @@ static const Texture *close_patterned(Parser *p, Texture *t, PatternDraft *d)
     return arena_copy(parse_arena(p), t, sizeof *t);
 }
 
-static void add_texture(Parser *p, Entries *list)
+/* `texture {...} texture {...}`: as many layers. */
+static const Texture *layers(Parser *p)
 {
-    array_push(parse_arena(p), list, (MapEntry){ .key = (float)list->n, .texture = parse_texture(p) });
+    const Texture *t = NULL;
+    while (parse_peek(p) == KW_TEXTURE)
+        t = texture_layered(p, t, parse_texture(p));
+    return t;
 }
 
 static void tiles(Parser *p, Texture *t)
 {
-    Entries list = { 0 };
-    parse_open(p);
-    while (parse_peek(p) == KW_TEXTURE)
-        add_texture(p, &list);
-    while (parse_accept(p, KW_TILE2))
-        while (parse_peek(p) == KW_TEXTURE)
-            add_texture(p, &list);
+    MapEntry *tile = arena_array(parse_arena(p), MapEntry, 2);
+    block_open(p, "tiles");
+    tile[0].texture = layers(p);
+    if (!parse_accept(p, KW_TILE2))
+        parse_expected(p, "tile2");
+    tile[1].key = 1;
+    tile[1].texture = layers(p);
+    if (tile[0].texture == NULL || tile[1].texture == NULL)
+        parse_expected(p, "texture");
     block_close(p, "tiles");
-    if (list.n != 2)
-        parse_fail(p, "tiles needs two textures: tiles { texture { ... } tile2 texture { ... } }");
-    t->map = (BlendMap){ MAP_TEXTURE, list.n, list.data };
+    t->map = (BlendMap){ MAP_TEXTURE, 2, tile };
 }
 
 static void material_map(Parser *p, Texture *t)
 {
     Entries list = { 0 };
-    parse_open(p);
+    block_open(p, "material_map");
     t->image = image_items(p, IMAGE_INDEX, NULL);
     while (parse_peek(p) == KW_TEXTURE) {
-        add_texture(p, &list);
+        array_push(parse_arena(p), &list, (MapEntry){ .key = (float)list.n, .texture = parse_texture(p) });
         parse_comma(p);
     }
     if (list.n == 0)
@@ -312,7 +316,7 @@ const Texture *parse_texture(Parser *p)
 {
     if (!parse_accept(p, KW_TEXTURE))
         parse_expect(p, KW_INTERIOR_TEXTURE);
-    parse_open(p);
+    block_open(p, "texture");
     const Texture *t = texture_body(p);
     block_close(p, "texture");
     return t;

@@ -118,7 +118,7 @@ Warp parse_warp(Parser *p)
 {
     Warp w = { 0 };
     parse_expect(p, KW_WARP);
-    parse_open(p);
+    block_open(p, "warp");
     int keyword = parse_peek(p);
     switch (keyword) {
     case KW_TURBULENCE: case KW_OCTAVES: case KW_OMEGA: case KW_LAMBDA:
