@@ -4,21 +4,9 @@
 
 #include "texture/texture.h"
 
-static inline bool chain_moves(const Affine *place, const WarpChain *chain)
-{
-    if (place != NULL && !place->identity)
-        return true;
-    for (uint32_t i = 0; chain != NULL && i < chain->n; i++)
-        if (chain->warp[i].kind == WARP_TRANSFORM)
-            return true;
-    return false;
-}
-
 /* keep_length: no_bump_scale, the normal is not made a unit vector on the way. */
 static inline Vec3 carry_in(const Affine *place, const WarpChain *chain, Vec3 n, bool keep_length)
 {
-    if (!chain_moves(place, chain))
-        return n;
     if (!keep_length)
         n = normalized(n);
     if (place != NULL)
@@ -31,8 +19,6 @@ static inline Vec3 carry_in(const Affine *place, const WarpChain *chain, Vec3 n,
 
 static inline Vec3 carry_out(const Affine *place, const WarpChain *chain, Vec3 n, bool keep_length)
 {
-    if (!chain_moves(place, chain))
-        return n;
     if (!keep_length)
         n = normalized(n);
     for (uint32_t i = chain != NULL ? chain->n : 0; i-- > 0;)

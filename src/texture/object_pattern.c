@@ -1,6 +1,7 @@
 /* object_pattern.c - object { O A, B }: the second item inside of O, the first outside.
  *
  * O is compiled alone, while the scene is parsed, into a small World that is only asked for insides. */
+#include "pattern/map.h"
 #include "sdl/parse.h"
 #include "world/prim.h"
 
@@ -27,7 +28,9 @@ static double value(const void *params, const PatternPoint *at)
     return own->world != NULL && item_inside(own->world, own->item, scaled(at->p, own->world->unit));
 }
 
+static const MapEntry map[] = { MAP_RGB(0, 0, 0, 1), MAP_RGB(1, 0, 1, 0) };
+
 const PatternOps pattern_object = {
     .keyword = "object", .params_size = sizeof(Params), .flags = PATTERN_LIST | PATTERN_NO_WAVE, .n_items = 2, .parse = parse,
-    .value = value,
+    .value = value, MAP_OF(map),
 };
