@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #define SHAPES(ROW) \
+    ROW(lathe) ROW(ovus) ROW(prism) ROW(sor) \
     ROW(box) ROW(cone) ROW(cylinder) ROW(disc) ROW(plane) ROW(smooth_triangle) ROW(sphere) ROW(torus) \
     ROW(triangle) ROW(mesh) ROW(mesh2)
 

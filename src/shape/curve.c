@@ -1,0 +1,122 @@
+/* curve.c - see curve.h. */
+#include "shape/curve.h"
+
+#include "math/bernstein.h"
+
+CurvePiece curve_piece(const Vec2 *p, int degree)
+{
+    CurvePiece c = { .degree = degree, .lo = p[0], .hi = p[0] };
+    for (int i = 0; i <= degree; i++) {
+        c.p[i] = p[i];
+        c.lo = (Vec2){ fmin(c.lo.u, p[i].u), fmin(c.lo.v, p[i].v) };
+        c.hi = (Vec2){ fmax(c.hi.u, p[i].u), fmax(c.hi.v, p[i].v) };
+    }
+    return c;
+}
+
+/* a + (c - b) * f */
+static Vec2 along(Vec2 a, Vec2 b, Vec2 c, double f)
+{
+    return (Vec2){ a.u + (c.u - b.u) * f, a.v + (c.v - b.v) * f };
+}
+
+CurvePiece curve_spline_piece(CurveKind kind, const Vec2 *p)
+{
+    switch (kind) {
+    case CURVE_QUADRATIC: {
+        const Vec2 q[3] = { p[1], along(p[1], p[0], p[2], 0.25), p[2] };
+        return curve_piece(q, 2);
+    }
+    case CURVE_CUBIC: {
+        const Vec2 q[4] = { p[1], along(p[1], p[0], p[2], 1 / 6.0), along(p[2], p[3], p[1], 1 / 6.0), p[2] };
+        return curve_piece(q, 3);
+    }
+    case CURVE_BEZIER:
+        return curve_piece(p, 3);
+    case CURVE_LINEAR:
+        break;
+    }
+    return curve_piece(p, 1);
+}
+
+static void components(const CurvePiece *c, double *u, double *v)
+{
+    for (int i = 0; i <= c->degree; i++) {
+        u[i] = c->p[i].u;
+        v[i] = c->p[i].v;
+    }
+}
+
+Vec2 curve_at(const CurvePiece *c, double w)
+{
+    double u[4], v[4];
+    components(c, u, v);
+    return (Vec2){ bernstein_value(u, c->degree, w), bernstein_value(v, c->degree, w) };
+}
+
+Vec2 curve_slope(const CurvePiece *c, double w)
+{
+    double u[4], v[4];
+    components(c, u, v);
+    return (Vec2){ bernstein_slope(u, c->degree, w), bernstein_slope(v, c->degree, w) };
+}
+
+static bool odd_beyond(const CurvePiece *c, double u, double v)
+{
+    double height[4], root[4];
+    for (int i = 0; i <= c->degree; i++)
+        height[i] = c->p[i].v - v;
+    if (u <= c->lo.u)
+        return (height[0] < 0) != (height[c->degree] < 0);
+    int n = bernstein_roots(height, c->degree, root);
+    bool odd = false;
+    for (int i = 0; i < n; i++)
+        odd ^= curve_at(c, root[i]).u >= u;
+    return odd;
+}
+
+bool curve_inside(const Curve *c, double u, double v)
+{
+    bool odd = false;
+    for (uint32_t i = 0; i < c->n; i++) {
+        const CurvePiece *piece = &c->piece[i];
+        if (piece->lo.v <= v && v <= piece->hi.v && u <= piece->hi.u)
+            odd ^= odd_beyond(piece, u, v);
+    }
+    return odd;
+}
+
+static void extent_of(const double *b, int n, double *lo, double *hi)
+{
+    double d[4], root[4];
+    *lo = fmin(b[0], b[n]);
+    *hi = fmax(b[0], b[n]);
+    for (int i = 0; i < n; i++)
+        d[i] = b[i + 1] - b[i];
+    int found = n > 1 ? bernstein_roots(d, n - 1, root) : 0;
+    for (int i = 0; i < found; i++) {
+        double x = bernstein_value(b, n, root[i]);
+        *lo = fmin(*lo, x);
+        *hi = fmax(*hi, x);
+    }
+}
+
+void curve_extent(const CurvePiece *c, Vec2 *lo, Vec2 *hi)
+{
+    double u[4], v[4];
+    components(c, u, v);
+    extent_of(u, c->degree, &lo->u, &hi->u);
+    extent_of(v, c->degree, &lo->v, &hi->v);
+}
+
+Curve curve_scaled(Arena *arena, Curve c, double by)
+{
+    Curve out = { arena_array(arena, CurvePiece, c.n), c.n };
+    for (uint32_t i = 0; i < c.n; i++) {
+        Vec2 p[4];
+        for (int k = 0; k <= c.piece[i].degree; k++)
+            p[k] = (Vec2){ c.piece[i].p[k].u * by, c.piece[i].p[k].v * by };
+        out.piece[i] = curve_piece(p, c.piece[i].degree);
+    }
+    return out;
+}
