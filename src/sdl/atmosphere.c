@@ -45,8 +45,8 @@ static bool fog_item(Parser *p, FogDef *f)
             f->up = normalized(affine_vector(&move, f->up));
             return true;
         }
-        if (parse_at_number(p)) {
-            parse_warn(p, "Should use 'distance' keyword.");
+        if (parse_at_float(p)) {
+            parse_warn(p, "Should use distance keyword.");
             f->distance = parse_float(p);
             parse_comma(p);
             return true;

@@ -82,7 +82,8 @@ static void vector_literal(Parser *p, Num *out)
         out->v[out->terms++] = num_float(p, &n);
         if (parse_accept(p, TOK_GREATER))
             break;
-        parse_accept(p, TOK_COMMA);
+        if (parse_accept(p, TOK_COMMA) && parse_accept(p, TOK_GREATER))
+            break;                             /* POV: a comma may stand before the '>' */
     }
     if (out->terms < 2)
         fail(p->diag, open, "a vector has at least two components");

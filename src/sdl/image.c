@@ -55,8 +55,6 @@ static const Image *read_file(Parser *p, Str name, Loc loc, ImageFormat format, 
     for (const struct ImageSeen *s = b->images; s != NULL; s = s->next)
         if (str_equal(s->name, name) && same_reading(&s->how, how))
             return s->image;
-    if (format == IMAGE_BY_CONTENT)
-        format = image_format_of(name);
     char error[IMAGE_ERROR];
     Str bytes = parse_read_file(p, name, loc);
     const Image *image = image_read(p->arena, bytes, format, how, error);
@@ -151,7 +149,11 @@ static void read_image(Parser *p, ImageUse use, ImageMap *map)
     else if (keyword == KW_SYS)
         parse_fail(p, "There is no image type 'sys' here.");
     Loc loc = parse_loc(p);
+    if (!kind_starts_string(p))
+        parse_expected(p, "map file spec");
     Str name = parse_file_name(p);
+    if (format == IMAGE_BY_CONTENT && (format = image_format_of(name)) == IMAGE_BY_CONTENT)
+        parse_fail(p, "Could not determine valid image file type from extension.");
     for (;;) {
         if (parse_accept(p, KW_GAMMA))
             read_gamma(p, &how);

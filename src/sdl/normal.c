@@ -69,8 +69,6 @@ static bool modifier(Parser *p, Normal *n, PatternDraft *d)
     case KW_BUMP_SIZE: parse_skip(p); n->amount = (float)parse_float(p); return true;
     case KW_ACCURACY: parse_skip(p); n->accuracy = (float)parse_float(p); return true;
     case KW_NO_BUMP_SCALE: parse_skip(p); n->no_bump_scale = true; return true;
-    case KW_COORDS: case KW_SIZE:
-        parse_fail(p, "Keyword '%s' can only be used in a facets statement.", parse_word(keyword));
     case KW_SLOPE_MAP: case KW_NORMAL_MAP:
         if (n->kind == NORMAL_BUMP_MAP || list || (n->kind == NORMAL_AVERAGE && keyword == KW_SLOPE_MAP))
             parse_fail(p, "Keyword '%s' cannot be used with this normal type.", parse_word(keyword));

@@ -240,7 +240,7 @@ static bool texture_item(Parser *p, Object *o, int keyword)
     }
 }
 
-static void shape_flag(Parser *p, Object *o, int keyword)
+static bool shape_flag(Parser *p, Object *o, int keyword)
 {
     static const struct { int keyword; unsigned needs; uint32_t flag; bool off; } rows[] = {
         { KW_STURM, SHAPE_HAS_STURM, OBJECT_STURM, false },
@@ -249,12 +249,16 @@ static void shape_flag(Parser *p, Object *o, int keyword)
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (rows[i].keyword == keyword) {
-            if (o->kind != OBJECT_SHAPE || !(o->ops->flags & rows[i].needs))
+            bool fits = o->kind == OBJECT_SHAPE && (o->ops->flags & rows[i].needs) != 0;
+            if (!fits && keyword == KW_OPEN)
+                return false;
+            if (!fits)
                 parse_fail(p, "Keyword '%s' cannot be used with this object.", parse_word(keyword));
             parse_skip(p);
             bool value = keyword == KW_OPEN || on(p);
             set(o, rows[i].flag, rows[i].off ? !value : value);
         }
+    return true;
 }
 
 static void csg_flag(Parser *p, Object *o, int keyword)
@@ -299,7 +303,7 @@ static bool plain_modifier(Parser *p, Object *o, int keyword)
     case KW_NO_IMAGE: flag_item(p, o, OBJECT_NO_IMAGE); return true;
     case KW_NO_REFLECTION: flag_item(p, o, OBJECT_NO_REFLECTION); return true;
     case KW_NO_RADIOSITY: flag_item(p, o, OBJECT_NO_RADIOSITY); return true;
-    case KW_STURM: case KW_OPEN: case KW_HIERARCHY: shape_flag(p, o, keyword); return true;
+    case KW_STURM: case KW_OPEN: case KW_HIERARCHY: return shape_flag(p, o, keyword);
     case KW_SPLIT_UNION: case KW_CUTAWAY_TEXTURES: csg_flag(p, o, keyword); return true;
     case KW_PHOTONS: parse_skip(p); o->photons = photons_block(p, o->photons, false); return true;
     case KW_RADIOSITY: parse_skip(p); radiosity(p, o); return true;
@@ -344,7 +348,7 @@ static void modifiers(Parser *p, ObjectDraft *d, const ShapeOps *own, void *para
                 o->flags |= OBJECT_HAS_INSIDE;
         } else if (parse_move(p, &move)) {
             draft_move(p, d, &move);
-        } else if (!texture_item(p, o, keyword) && !plain_modifier(p, o, keyword)) {
+        } else if (!(o->kind != OBJECT_LIGHT_GROUP && texture_item(p, o, keyword)) && !plain_modifier(p, o, keyword)) {
             if (!parse_at_colour(p))
                 break;
             parse_warn(p, "Quick color belongs in texture. Color ignored.");

@@ -126,6 +126,8 @@ static const struct { int keyword; const char *what; } belongs[] = {
     { KW_METRIC, "can only be used in a facets or crackle statement" },
     { KW_FORM, "can only be used in a crackle or pavement statement" },
     { KW_OFFSET, "can only be used in a crackle statement" },
+    { KW_COORDS, "can only be used in a facets statement" },
+    { KW_SIZE, "can only be used in a facets statement" },
     { KW_EXPONENT, "can only be used in a mandel or julia statement" },
     { KW_EXTERIOR, "can only be used in a mandel, julia, magnet or pavement statement" },
     { KW_INTERIOR, "can only be used in a mandel, julia, magnet or pavement statement" },

@@ -89,7 +89,7 @@ const Texture *texture_with(Parser *p, const Texture *from, const Pigment *pigme
 const Texture *texture_part(Parser *p, const Texture *top)
 {
     if (top->kind != TEXTURE_PLAIN)
-        parse_fail(p, "Cannot change the %s of a patterned texture.", parse_word(parse_peek(p)));
+        parse_fail(p, "Cannot layer over a patterned texture.");
     const Pigment *pigment = top->pigment;
     const Normal *normal = top->normal;
     const Finish *finish = top->finish;
