@@ -6,7 +6,7 @@
 #define SHAPES(ROW) \
     ROW(lathe) ROW(ovus) ROW(prism) ROW(sor) \
     ROW(box) ROW(cone) ROW(cylinder) ROW(disc) ROW(plane) ROW(smooth_triangle) ROW(sphere) ROW(torus) \
-    ROW(triangle) ROW(mesh) ROW(mesh2)
+    ROW(triangle) ROW(mesh) ROW(mesh2) ROW(quadric) ROW(cubic) ROW(quartic) ROW(poly) ROW(polynomial) ROW(polygon)
 
 #define PATTERNS(ROW) \
     ROW(bozo) ROW(spotted) ROW(bumps) ROW(dents) ROW(granite) ROW(wrinkles) ROW(agate) ROW(marble) \

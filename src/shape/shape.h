@@ -31,6 +31,10 @@ static inline double shape_nearest_t(const Ray *ray)
     return -dot(ray->o, ray->d) / length2(ray->d);
 }
 
+/* For an equation whose largest coefficient of degree k is by_degree[k]: the power of two near the size of its surface, in
+ * which the coefficients balance. It follows the scale of the equation exactly. */
+double shape_algebraic_unit(const double *by_degree, int n);
+
 /* POV: the hull of a box in a frame, as extents report it. */
 Bounds shape_hull(Bounds local, const Affine *frame, const Affine *place);
 

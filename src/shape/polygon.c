@@ -1,0 +1,159 @@
+/* polygon.c - polygon { n, points }: closed rings in a plane, filled where an odd number of them lies around. */
+#include "base/array.h"
+#include "sdl/parse.h"
+#include "shape/shape.h"
+
+
+typedef struct { Vec3 *point; uint32_t n; } Params;
+
+typedef struct Polygon {
+    Vec3 origin, u, v, normal;                 /* unit vectors */
+    uint32_t n;
+    struct { double x0, y0, x1, y1; } edge[];
+} Polygon;
+
+static const double SAME = 1e-10;              /* relative to the size of the polygon */
+
+static void parse(Parser *p, void *params)
+{
+    Params *polygon = params;
+    int n = parse_int(p);
+    if (n < 3)
+        parse_fail(p, "Polygon needs at least three points.");
+    uint32_t capacity = n < 1 << 16 ? (uint32_t)n : 1 << 16;
+    polygon->point = arena_array(parse_arena(p), Vec3, capacity);
+    for (uint32_t i = 0; i < (uint32_t)n; i++) {
+        if (i == capacity)
+            polygon->point = array_grow(parse_arena(p), polygon->point, i, &capacity, sizeof *polygon->point);
+        polygon->point[i] = parse_next_vec3(p);
+    }
+    polygon->n = (uint32_t)n;
+}
+
+static bool same(Vec3 a, Vec3 b, double size)
+{
+    return max_abs(sub(a, b)) <= SAME * size;
+}
+
+/* The frame of the first edges that span a plane; false if none do, or a point is off it. */
+static bool find_plane(const Vec3 *p, uint32_t n, double size, Polygon *out)
+{
+    uint32_t i = 1;
+    while (i < n && length2(sub(p[i], p[0])) <= SAME * size * size)
+        i++;
+    if (i == n)
+        return false;
+    Vec3 u = sub(p[i], p[0]), w = vec3(0, 0, 0);
+    for (i++; i < n; i++) {
+        w = cross(u, sub(p[i], p[0]));
+        if (length2(w) > SAME * size * size * size * size)
+            break;
+    }
+    if (i >= n)
+        return false;
+    out->origin = p[0];
+    out->u = normalized(u);
+    out->normal = normalized(w);
+    out->v = cross(out->normal, out->u);
+    for (i = 0; i < n; i++)
+        if (fabs(dot(out->normal, sub(p[i], p[0]))) > SAME * size)
+            return false;
+    return true;
+}
+
+static void compile(ShapeBuild *b, const void *params)
+{
+    const Params *polygon = params;
+    Bounds box = bounds_of_points(polygon->point, polygon->n);
+    double unit = shape_unit(b, fmax(max_abs(box.lo), max_abs(box.hi))), size = max_abs(sub(box.hi, box.lo)) / unit;
+    Polygon *out = build_data(b, sizeof *out + (polygon->n + (size_t)1) * 2 * sizeof out->edge[0]);
+    Vec3 *p = build_data(b, polygon->n * sizeof *p);
+    for (uint32_t i = 0; i < polygon->n; i++)
+        p[i] = scaled(polygon->point[i], 1 / unit);
+    if (!find_plane(p, polygon->n, size, out))
+        return;
+    for (uint32_t first = 0, i = 0; i < polygon->n; i++) {
+        bool closes = i > first && same(p[i], p[first], size), last = i + 1 == polygon->n;
+        uint32_t to = closes ? first : i;
+        if (i > first) {
+            Vec3 a = sub(p[i - 1], p[0]), z = sub(p[to], p[0]);
+            out->edge[out->n].x0 = dot(a, out->u);
+            out->edge[out->n].y0 = dot(a, out->v);
+            out->edge[out->n].x1 = dot(z, out->u);
+            out->edge[out->n++].y1 = dot(z, out->v);
+        }
+        if (last && !closes && i > first) {    /* left open by the author */
+            Vec3 a = sub(p[i], p[0]), z = sub(p[first], p[0]);
+            out->edge[out->n].x0 = dot(a, out->u);
+            out->edge[out->n].y0 = dot(a, out->v);
+            out->edge[out->n].x1 = dot(z, out->u);
+            out->edge[out->n++].y1 = dot(z, out->v);
+        }
+        if (closes)
+            first = i + 1;
+    }
+    Affine place = build_place(b, unit);
+    Bounds own = shape_padded((Bounds){ scaled(box.lo, 1 / unit), scaled(box.hi, 1 / unit) });
+    build_prim(b, out, &place, bounds_grown(own, SAME * size));
+}
+
+static void finish(Parser *p, void *params)
+{
+    const Params *polygon = params;
+    Bounds box = bounds_of_points(polygon->point, polygon->n);
+    double size = max_abs(sub(box.hi, box.lo));
+    uint32_t first = 0;
+    for (uint32_t i = 0; i < polygon->n; i++)
+        if (i > first && same(polygon->point[i], polygon->point[first], size))
+            first = i + 1;
+    if (first < polygon->n)
+        parse_warn(p, "Polygon not closed. Closing it.");
+}
+
+static void hits(const void *shape, const Ray *ray, HitSink *sink)
+{
+    const Polygon *g = shape;
+    double slope = dot(g->normal, ray->d);
+    if (slope == 0)
+        return;
+    Vec3 v = sub(ray->o, g->origin);
+    double t = -dot(g->normal, v) / slope;
+    Vec3 at = add(v, scaled(ray->d, t));
+    double x = dot(at, g->u), y = dot(at, g->v);
+    bool in = false;
+    for (uint32_t i = 0; i < g->n; i++) {
+        double x0 = g->edge[i].x0, y0 = g->edge[i].y0, x1 = g->edge[i].x1, y1 = g->edge[i].y1;
+        if ((y0 >= y) == (y1 >= y))
+            continue;
+        double side = (y1 - y) * (x0 - x1) - (x1 - x) * (y0 - y1);
+        in ^= (side >= 0) == (y1 >= y);
+    }
+    if (in)
+        hit_add(sink, t, 0);
+}
+
+static void surface(const void *shape, const Hit *hit, Surface *out)
+{
+    (void)hit;
+    const Polygon *g = shape;
+    out->normal = g->normal;
+    out->p = sub(out->p, scaled(g->normal, dot(g->normal, sub(out->p, g->origin))));
+}
+
+/* POV: an edge of the box shorter than 0.001 grows by that on both sides. */
+static Bounds extent(const void *params, const Affine *place)
+{
+    const Params *polygon = params;
+    Bounds box = bounds_of_points(polygon->point, polygon->n);
+    for (int i = 0; i < 3; i++)
+        if (vec3_at(box.hi, i) - vec3_at(box.lo, i) < 0.001) {
+            vec3_set(&box.lo, i, vec3_at(box.lo, i) - 0.001);
+            vec3_set(&box.hi, i, vec3_at(box.hi, i) + 0.001);
+        }
+    return bounds_transformed(box, place);
+}
+
+const ShapeOps shape_polygon = {
+    .keyword = "polygon", .params_size = sizeof(Params), .parse = parse, .finish = finish, .compile = compile,
+    .hits = hits, .surface = surface, .extent = extent,
+};
