@@ -6,7 +6,8 @@
 #define SHAPES(ROW) \
     ROW(lathe) ROW(ovus) ROW(prism) ROW(sor) \
     ROW(box) ROW(cone) ROW(cylinder) ROW(disc) ROW(plane) ROW(smooth_triangle) ROW(sphere) ROW(torus) \
-    ROW(triangle) ROW(mesh) ROW(mesh2) ROW(quadric) ROW(cubic) ROW(quartic) ROW(poly) ROW(polynomial) ROW(polygon)
+    ROW(triangle) ROW(mesh) ROW(mesh2) ROW(quadric) ROW(cubic) ROW(quartic) ROW(poly) \
+    ROW(polynomial) ROW(polygon) ROW(bicubic_patch) ROW(superellipsoid)
 
 #define PATTERNS(ROW) \
     ROW(bozo) ROW(spotted) ROW(bumps) ROW(dents) ROW(granite) ROW(wrinkles) ROW(agate) ROW(marble) \

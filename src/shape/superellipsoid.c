@@ -1,0 +1,180 @@
+/* superellipsoid.c - superellipsoid { <e, n> }: (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) = 1.
+ *
+ * Traced by the norm g(g(|x|, |y|; 2/e), |z|; 2/n) - 1 with g(a, b; p) = (a^p + b^p)^(1/p), which grows in proportion to the
+ * distance from the origin whatever the exponents. The planes x = +-y, y = +-z, z = +-x and those of the axes cut a ray into
+ * pieces on which it is smooth and turns at most once; each piece is searched by the signs at its ends and of its slopes. */
+#include "sdl/parse.h"
+#include "shape/shape.h"
+
+typedef struct { double e, n; } Params;
+typedef struct { double p, q; } Super;                     /* 2/e, 2/n; may be infinite */
+typedef struct { double f, slope; } Sample;                /* along the ray */
+
+static void parse(Parser *p, void *params)
+{
+    Vec2 v = parse_vec2(p);
+    *(Params *)params = (Params){ v.u, v.v };
+    if (v.u < 0 || v.v < 0)
+        parse_fail(p, "the exponents of a superellipsoid cannot be negative");
+}
+
+static void compile(ShapeBuild *b, const void *params)
+{
+    const Params *s = params;
+    Super *out = build_data(b, sizeof *out);
+    *out = (Super){ 2 / s->e, 2 / s->n };
+    Affine place = build_place(b, 1);
+    build_prim(b, out, &place, shape_padded((Bounds){ vec3(-1, -1, -1), vec3(1, 1, 1) }));
+}
+
+/* (a^p + b^p)^(1/p) for a, b >= 0, and its derivatives. */
+static double mean(double a, double b, double p, double *da, double *db)
+{
+    double most = fmax(a, b), least = fmin(a, b);
+    *da = a >= b;
+    *db = a < b;
+    if (most == 0 || least == 0 || isinf(p))
+        return most;
+    double r = least / most, rp = pow(r, p), k = pow(1 + rp, 1 / p), d_most = k / (1 + rp), d_least = d_most * rp / r;
+    *da = a >= b ? d_most : d_least;
+    *db = a >= b ? d_least : d_most;
+    return most * k;
+}
+
+static Sample sample(const Super *s, Vec3 o, Vec3 d, double t)
+{
+    Vec3 p = add(o, scaled(d, t));
+    double dx, dy, du, dz;
+    double u = mean(fabs(p.x), fabs(p.y), s->p, &dx, &dy);
+    double f = mean(u, fabs(p.z), s->q, &du, &dz);
+    double side_x = p.x > 0 || (p.x == 0 && d.x > 0) ? d.x : -d.x, side_y = p.y > 0 || (p.y == 0 && d.y > 0) ? d.y : -d.y,
+           side_z = p.z > 0 || (p.z == 0 && d.z > 0) ? d.z : -d.z;
+    return (Sample){ f - 1, du * (dx * side_x + dy * side_y) + dz * side_z };
+}
+
+/* The root between a and b, where f changes its sign: Newton's steps inside a bracket. */
+static double closed_in(const Super *s, Vec3 o, Vec3 d, double a, double b, bool falling)
+{
+    double t = 0.5 * (a + b), last = b - a;
+    for (int i = 0; i < 100; i++) {
+        Sample at = sample(s, o, d, t);
+        if (at.f == 0)
+            return t;
+        if ((at.f > 0) == falling)
+            a = t;
+        else
+            b = t;
+        double next = t - at.f / at.slope;
+        if (!(next > a && next < b) || fabs(next - t) > 0.5 * last)
+            next = 0.5 * (a + b);
+        last = fabs(next - t);
+        if (last <= DBL_EPSILON * fmax(1, fabs(t)))
+            return next;
+        t = next;
+    }
+    return t;
+}
+
+/* Where the slope changes its sign between a and b, as far as needed: up to a value of the other sign than that of the ends. */
+static bool turning_point(const Super *s, Vec3 o, Vec3 d, double a, double b, bool above, double *t)
+{
+    for (int i = 0; i < 60 && b - a > DBL_EPSILON; i++) {
+        *t = 0.5 * (a + b);
+        Sample at = sample(s, o, d, *t);
+        if ((at.f > 0) != above && at.f != 0)
+            return true;
+        if ((at.slope < 0) == above)
+            a = *t;
+        else
+            b = *t;
+    }
+    return false;
+}
+
+static void search(const Super *s, Vec3 o, Vec3 d, double a, double b, double shift, double len, HitSink *sink)
+{
+    double in = a + 1e-12 * (b - a), out = b - 1e-12 * (b - a), turn;      /* slopes on this side of the planes */
+    Sample fa = sample(s, o, d, in), fb = sample(s, o, d, out);
+    if ((fa.f > 0) != (fb.f > 0))
+        hit_add(sink, shift + closed_in(s, o, d, a, b, fa.f > 0) / len, 0);
+    else if ((fa.slope < 0) == (fa.f > 0) && (fb.slope < 0) != (fb.f > 0) && turning_point(s, o, d, a, b, fa.f > 0, &turn)) {
+        hit_add(sink, shift + closed_in(s, o, d, a, turn, fa.f > 0) / len, 0);
+        hit_add(sink, shift + closed_in(s, o, d, turn, b, fa.f <= 0) / len, 0);
+    }
+}
+
+/* Where the line is within the cube around the shape. */
+static bool clip(Vec3 o, Vec3 d, double *in, double *out)
+{
+    const double edge = 1 + 1e-9;              /* a root on the very face must not be rounded away */
+    *in = -INFINITY;
+    *out = INFINITY;
+    for (int i = 0; i < 3; i++) {
+        double x = vec3_at(o, i), dx = vec3_at(d, i);
+        if (dx == 0) {
+            if (fabs(x) > edge)
+                return false;
+            continue;
+        }
+        double t0 = (-edge - x) / dx, t1 = (edge - x) / dx;
+        *in = fmax(*in, fmin(t0, t1));
+        *out = fmin(*out, fmax(t0, t1));
+    }
+    return *in < *out;
+}
+
+static void hits(const void *shape, const Ray *ray, HitSink *sink)
+{
+    const Super *s = shape;
+    double len = length(ray->d), shift = shape_nearest_t(ray), cut[11];
+    Vec3 o = ray_at(ray, shift), d = scaled(ray->d, 1 / len);
+    int n = 0;
+    if (!clip(o, d, &cut[0], &cut[10]))
+        return;
+    const double height[9] = { o.x, o.y, o.z, o.x - o.y, o.x + o.y, o.y - o.z, o.y + o.z, o.z - o.x, o.z + o.x };
+    const double slope[9] = { d.x, d.y, d.z, d.x - d.y, d.x + d.y, d.y - d.z, d.y + d.z, d.z - d.x, d.z + d.x };
+    double last = cut[10];
+    for (int i = 0; i < 9; i++) {
+        double t = -height[i] / slope[i];
+        if (!(t > cut[0] && t < last))
+            continue;
+        int at = ++n;
+        for (; cut[at - 1] > t; at--)
+            cut[at] = cut[at - 1];
+        cut[at] = t;
+    }
+    cut[++n] = last;
+    for (int i = 0; i < n; i++)
+        if (cut[i + 1] - cut[i] > 4 * DBL_EPSILON)
+            search(s, o, d, cut[i], cut[i + 1], shift, len, sink);
+}
+
+static bool inside(const void *shape, Vec3 p)
+{
+    const Super *s = shape;
+    double ignored[4];
+    double u = mean(fabs(p.x), fabs(p.y), s->p, &ignored[0], &ignored[1]);
+    return mean(u, fabs(p.z), s->q, &ignored[2], &ignored[3]) - 1 < 1e-10;
+}
+
+static void surface(const void *shape, const Hit *hit, Surface *out)
+{
+    (void)hit;
+    const Super *s = shape;
+    Vec3 p = out->p;
+    double dx, dy, du, dz, u = mean(fabs(p.x), fabs(p.y), s->p, &dx, &dy), f = mean(u, fabs(p.z), s->q, &du, &dz);
+    out->normal = vec3(copysign(du * dx, p.x), copysign(du * dy, p.y), copysign(dz, p.z));
+    out->p = scaled(p, 1 / f);                 /* the norm is proportional to the distance */
+}
+
+static Bounds extent(const void *params, const Affine *place)
+{
+    (void)params;
+    const double edge = 1.0001;                /* POV */
+    return bounds_transformed((Bounds){ vec3(-edge, -edge, -edge), vec3(edge, edge, edge) }, place);
+}
+
+const ShapeOps shape_superellipsoid = {
+    .keyword = "superellipsoid", .params_size = sizeof(Params), .parse = parse, .compile = compile,
+    .hits = hits, .inside = inside, .surface = surface, .extent = extent,
+};
