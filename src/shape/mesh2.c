@@ -28,6 +28,13 @@ static void *room(Parser *p, void *data, uint32_t *capacity, uint32_t i, uint32_
     return array_grow(parse_arena(p), data, i, capacity, size);
 }
 
+/* Exporters write a comma behind the last item too. */
+static void list_end(Parser *p)
+{
+    parse_comma(p);
+    parse_close(p);
+}
+
 static void vertex_vectors(Parser *p, MeshParams *m)
 {
     uint32_t n = list_length(p, "vertex_vectors"), capacity = 0;
@@ -39,7 +46,7 @@ static void vertex_vectors(Parser *p, MeshParams *m)
         m->vertex[i] = mesh_vertex(p, m, parse_next_vec3(p));
     }
     m->n_vertices = n;
-    parse_close(p);
+    list_end(p);
 }
 
 static void normal_vectors(Parser *p, MeshParams *m)
@@ -57,7 +64,7 @@ static void normal_vectors(Parser *p, MeshParams *m)
         warned |= zero;
     }
     m->n_normals = n;
-    parse_close(p);
+    list_end(p);
 }
 
 static void uv_vectors(Parser *p, MeshParams *m)
@@ -71,7 +78,7 @@ static void uv_vectors(Parser *p, MeshParams *m)
         m->uv[i] = parse_vec2(p);
     }
     m->n_uvs = n;
-    parse_close(p);
+    list_end(p);
 }
 
 static void texture_list(Parser *p, MeshParams *m)
@@ -81,18 +88,14 @@ static void texture_list(Parser *p, MeshParams *m)
     ARRAY(const Texture *) list = { 0 };
     for (uint32_t i = 0; i < n; i++) {
         parse_comma(p);
-        BlockKind kind;
         const Texture *t = parse_take_block(p, BLOCK_TEXTURE);
-        if (t == NULL) {
-            t = block_parse(p, &kind);
-            if (t == NULL || kind != BLOCK_TEXTURE)
-                parse_expected(p, "texture");
-        }
-        array_push(a, &list, t);
+        if (t == NULL && parse_peek(p) != KW_TEXTURE)
+            parse_expected(p, "texture");
+        array_push(a, &list, t != NULL ? t : parse_texture(p));
     }
     m->texture = list.data;
     m->n_textures = n;
-    parse_close(p);
+    list_end(p);
 }
 
 static uint32_t checked(Parser *p, double index, uint32_t n, const char *what)
@@ -139,8 +142,7 @@ static void face_indices(Parser *p, MeshParams *m)
                                  : (Index3){ { MESH_NONE, MESH_NONE, MESH_NONE } };
     }
     m->n_faces = n;
-    parse_comma(p);
-    parse_close(p);
+    list_end(p);
 }
 
 static void uv_indices(Parser *p, MeshParams *m)
@@ -153,7 +155,7 @@ static void uv_indices(Parser *p, MeshParams *m)
         m->face_uv = room(p, m->face_uv, &capacity, i, n, sizeof *m->face_uv);
         m->face_uv[i] = indices(p, m->n_uvs, "uv");
     }
-    parse_close(p);
+    list_end(p);
 }
 
 static void normal_indices(Parser *p, MeshParams *m)
@@ -166,7 +168,7 @@ static void normal_indices(Parser *p, MeshParams *m)
         m->face_normal = room(p, m->face_normal, &capacity, i, total, sizeof *m->face_normal);
         m->face_normal[i] = i < n ? indices(p, m->n_normals, "normal") : (Index3){ { MESH_NONE, MESH_NONE, MESH_NONE } };
     }
-    parse_close(p);
+    list_end(p);
 }
 
 static void parse(Parser *p, void *params)
