@@ -281,11 +281,12 @@ static Vec3 axis_rotated(Vec3 v, Vec3 axis, double degrees)
                 v.x * (p * r * (1 - c) - q * s) + v.y * (q * r * (1 - c) + p * s) + v.z * (r * r + c * (1 - r * r)));
 }
 
+/* POV: lambda and omega are kept in single precision. */
 static Vec3 turbulence(Parser *p)
 {
-    double lambda = expr_float(p);
+    double lambda = (double)(float)expr_float(p);
     parse_comma(p);
-    double omega = expr_float(p);
+    double omega = (double)(float)expr_float(p);
     parse_comma(p);
     int octaves = int32(expr_float(p));
     parse_comma(p);

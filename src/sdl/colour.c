@@ -16,12 +16,14 @@ bool kind_starts_colour(const Parser *p)
     }
 }
 
+/* POV: in single precision throughout. */
 static double srgb_decoded(Parser *p, double v)
 {
+    float c = (float)v;
     if (p->gamma_mode == GAMMA_SRGB)
-        return v;
-    double linear = v < 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
-    return p->gamma_mode == GAMMA_POWER && p->gamma != 1 ? pow(linear, 1 / p->gamma) : linear;
+        return (double)c;
+    float linear = c < 0.04045f ? c / 12.92f : powf((c + 0.055f) / 1.055f, 2.4f);
+    return (double)(p->gamma_mode == GAMMA_POWER && p->gamma != 1 ? powf(linear, 1 / (float)p->gamma) : linear);
 }
 
 static void srgb(Parser *p, Num *n, Loc loc)
