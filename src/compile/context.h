@@ -27,7 +27,6 @@ typedef struct Inherited {
     uint32_t first_group_light, n_group_lights;
     bool uv, hollow, cutaway, double_illuminate, no_global_lights;
     bool in_csg;
-    bool in_group;
     bool lights_known;                         /* light_group: its own lights are in the World already */
 } Inherited;
 
@@ -49,7 +48,7 @@ typedef struct Shared {                        /* a shape compiled for all its c
     const ShapeOps *ops;
     uint32_t flags;
     bool own;                                  /* depends on the copy after all: compiled each time */
-    bool opaque;
+    bool opaque, no_inside;
     uint32_t first, n;                         /* in Compile.shared_prim */
 } Shared;
 
@@ -83,7 +82,7 @@ struct Compile {
     const Inherited *from;
     Affine shape_place;                        /* its own space to the world */
     uint32_t shape_material, shape_flags;
-    bool recording, asked_own, all_opaque;     /* recording: build_prim writes shared_prim */
+    bool recording, asked_own, all_opaque, no_inside;  /* recording: build_prim writes shared_prim */
 };
 
 /* The slot for a key with this hash: `same` says whether the entry at an index is the key. Grows the table before it is

@@ -124,6 +124,7 @@ static const Shared *shape_shared(Compile *c, ShapeBuild *b, const Object *o)
     key.n = c->shared_prim.n - key.first;
     key.own = c->asked_own;
     key.opaque = c->all_opaque;
+    key.no_inside = b->no_inside;
     if (*slot == 0) {
         array_push(c->arena, &c->shared, key);
         *slot = c->shared.n;
@@ -140,15 +141,18 @@ static void shape_compile(Compile *c, const Object *o, const Inherited *from)
     c->shape_place = affine_then(in_scene, c->to_world);
     c->asked_own = false;
     c->all_opaque = true;
+    c->no_inside = false;
     ShapeBuild b = { .arena = c->arena, .object = o, .accel = c->w->accel_ops,
                      .place = shared ? affine_identity() : c->shape_place, .unit = shared ? 1 : c->unit,
                      .diag = c->diag, .compile = c };
     if (!shared) {
         o->ops->compile(&b, o->params);
+        c->no_inside = b.no_inside;
         return;
     }
     const Shared *s = shape_shared(c, &b, o);
     c->all_opaque = s->opaque;
+    c->no_inside = s->no_inside;
     for (uint32_t i = 0; i < s->n; i++) {
         const SharedPrim *p = &c->shared_prim.data[s->first + i];
         Affine place = affine_then(p->place, c->shape_place);
@@ -158,9 +162,22 @@ static void shape_compile(Compile *c, const Object *o, const Inherited *from)
 
 /* ---- what an object takes from those around it ---- */
 
+/* POV: a union all of whose children, lights aside, are no_shadow is no_shadow itself. */
+static bool casts_no_shadow(const Object *o)
+{
+    if ((o->flags & OBJECT_NO_SHADOW) || o->kind == OBJECT_LIGHT)
+        return true;
+    if (o->kind != OBJECT_UNION)
+        return false;
+    bool all = o->n_child > 0;
+    for (uint32_t i = 0; i < o->n_child; i++)
+        all = all && casts_no_shadow(o->child[i]);
+    return all;
+}
+
 static uint32_t flags_of(const Object *o)
 {
-    return (o->flags & OBJECT_NO_SHADOW ? PRIM_NO_SHADOW : 0) | (o->flags & OBJECT_NO_IMAGE ? PRIM_NO_IMAGE : 0) |
+    return (casts_no_shadow(o) ? PRIM_NO_SHADOW : 0) | (o->flags & OBJECT_NO_IMAGE ? PRIM_NO_IMAGE : 0) |
            (o->flags & OBJECT_NO_REFLECTION ? PRIM_NO_REFLECTION : 0) |
            (o->flags & OBJECT_NO_RADIOSITY ? PRIM_NO_RADIOSITY : 0);
 }
@@ -229,8 +246,13 @@ static uint32_t shape_prims(Compile *c, const Object *o, const Inherited *from)
     Material m = c->material.data[c->shape_material];
     bool opaque = !c->geometry_only && textures_opaque(c, &m) && !(m.flags & MATERIAL_CUTAWAY);
     shape_compile(c, o, from);
-    for (uint32_t i = first; i < c->prim.n && opaque && c->all_opaque; i++)
-        c->prim.data[i].flags |= PRIM_OPAQUE;
+    for (uint32_t i = first; i < c->prim.n; i++) {
+        Prim *prim = &c->prim.data[i];
+        if (opaque && c->all_opaque)
+            prim->flags |= PRIM_OPAQUE;
+        if (c->no_inside)
+            prim->flags = (prim->flags & ~(uint32_t)PRIM_INVERSE) | PRIM_PATCH;
+    }
     if (!c->all_opaque && m.interior < 2) {    /* it has see-through parts after all: a body of its own */
         Affine none = affine_identity();
         m.interior = interior_placed(c, c->interior.data[0].interior, NULL, &none, in.hollow);
@@ -243,12 +265,12 @@ static uint32_t shape_prims(Compile *c, const Object *o, const Inherited *from)
 
 /* ---- set operations ---- */
 
-/* POV: which kinds of CSG heed the flags of their children (08-shapes, section 10.4). */
+/* POV: which kinds of CSG heed the flags of their children (08-shapes, section 10.4); no_shadow counts outermost only. */
 static uint32_t heeded_flags(const Object *child, const Object *parent)
 {
-    uint32_t flags = flags_of(child);
+    uint32_t flags = flags_of(child) & ~(uint32_t)PRIM_NO_SHADOW;
     if (parent->kind == OBJECT_INTERSECTION || parent->kind == OBJECT_DIFFERENCE)
-        return flags & PRIM_NO_SHADOW;
+        return 0;
     if (parent->kind == OBJECT_UNION && (flags & PRIM_NO_IMAGE))
         flags = (flags & ~(uint32_t)PRIM_NO_IMAGE) | PRIM_NO_IMAGE_LATER;
     return flags;

@@ -38,33 +38,18 @@ void light_add(Compile *c, const Object *o, const Inherited *from, bool grouped)
         array_push(c->arena, &c->screen, (Screen){ def->projected_through, in_scene, index, grouped });
 }
 
-/* The lights of a group and of the groups in it. */
-static void add_members(Compile *c, const Object *group, const Inherited *from)
-{
-    for (uint32_t i = 0; i < group->n_child; i++) {
-        const Object *o = group->child[i];
-        if (o->kind == OBJECT_LIGHT) {
-            array_push(c->arena, &c->group_list, c->group_light.n);
-            light_add(c, o, from, true);
-        } else if (o->kind == OBJECT_LIGHT_GROUP) {
-            Affine place = affine_then(affine_of(o->place), *from->place);
-            Inherited inner = *from;
-            inner.place = &place;
-            add_members(c, o, &inner);
-        }
-    }
-}
-
-/* `members` is what the group hands to its members. An inner group has its outer group's lights, its own among them. */
+/* `members` is what the group hands to its members: the lights written in its own block, and no global ones unless it and all
+ * groups around it allow them. POV: groups neither inherit nor promote lights, and a light inside an inner union is global. */
 void light_group(Compile *c, const Object *group, Inherited *members)
 {
     members->lights_known = true;
-    members->no_global_lights = !(group->flags & OBJECT_GLOBAL_LIGHTS);
-    if (members->in_group)
-        return;
-    members->in_group = true;
+    members->no_global_lights |= !(group->flags & OBJECT_GLOBAL_LIGHTS);
     members->first_group_light = c->group_list.n;
-    add_members(c, group, members);
+    for (uint32_t i = 0; i < group->n_child; i++)
+        if (group->child[i]->kind == OBJECT_LIGHT) {
+            array_push(c->arena, &c->group_list, c->group_light.n);
+            light_add(c, group->child[i], members, true);
+        }
     members->n_group_lights = c->group_list.n - members->first_group_light;
 }
 

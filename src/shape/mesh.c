@@ -116,6 +116,7 @@ void mesh_compile(ShapeBuild *b, const void *params)
         Vec3 local = affine_vector_back(&place, out->inward);
         out->inward = normalized(scaled(local, 1 / build_unit(max_abs(local))));
     }
+    b->no_inside = max_abs(out->inward) == 0;
     double unit = m->unit > 0 ? m->unit : 1;
     Affine place = build_place(b, unit);
     build_prim(b, out, &place, shape_padded(m->box));

@@ -12,6 +12,7 @@ struct ShapeBuild {
     Affine place;                              /* the shape's own space to the world: object, parents, unit scale */
     double unit;                               /* World.unit, already in place; 1 for SHAPE_SHARED */
     Diag *diag;
+    bool no_inside;                            /* set by a shape that turns out to be a patch: mesh without inside_vector */
     struct Compile *compile;                   /* private */
 };
 
