@@ -24,7 +24,8 @@ typedef struct Media {
 typedef struct Interior {
     float ior, dispersion, caustics, old_refraction;
     int dispersion_samples;
-    float fade_distance, fade_power;
+    double fade_distance;                      /* a length: scenes of any size need its exponent */
+    float fade_power;
     Rgb fade_colour;
     const Media *media;
     uint32_t n_media;

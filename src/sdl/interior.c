@@ -181,7 +181,7 @@ const Interior *interior_block(Parser *p, const Interior *base)
             }
             break;
         case KW_CAUSTICS: parse_skip(p); i.caustics = 45 * number(p); break;     /* POV: 45 here, as it is in a finish */
-        case KW_FADE_DISTANCE: parse_skip(p); i.fade_distance = number(p); break;
+        case KW_FADE_DISTANCE: parse_skip(p); i.fade_distance = parse_float(p); break;
         case KW_FADE_POWER: parse_skip(p); i.fade_power = number(p); break;
         case KW_FADE_COLOR: parse_skip(p); i.fade_colour = parse_rgb(p); break;
         case KW_MEDIA: parse_skip(p); add_media(p, &i, media_block(p)); break;

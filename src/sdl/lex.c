@@ -48,6 +48,22 @@ Loc lex_loc(const Lexer *l)
     return (Loc){ l->line, l->source, (uint16_t)(column > UINT16_MAX ? UINT16_MAX : column) };
 }
 
+/* The end of a file is told as the end of its last line with something on it: there is something to point at. */
+static Loc end_loc(Parser *p, const Lexer *l)
+{
+    const char *start = diag_source_text(p->diag, l->source).data, *s = l->end;
+    uint32_t line = l->line;
+    while (s > start && (unsigned char)s[-1] <= ' ') {
+        s--;
+        line -= *s == '\n' && line > 1;
+    }
+    const char *from = s;
+    while (from > start && from[-1] != '\n' && from[-1] != '\r')
+        from--;
+    ptrdiff_t column = s - from + 1;
+    return (Loc){ line, l->source, (uint16_t)(column > UINT16_MAX ? UINT16_MAX : column) };
+}
+
 /* At CR or LF; CR LF and LF CR are one line end. */
 static inline const char *line_end(Lexer *l, const char *s)
 {
@@ -188,6 +204,7 @@ void lex_next(Parser *p, Lexer *l, Token *out)
         }
         out->loc = lex_loc(l);
         if (l->at >= l->end) {
+            out->loc = end_loc(p, l);
             out->kind = TOK_END;
             out->sym = NULL;
             return;

@@ -30,7 +30,7 @@ expect "a size of zero" 2 "1 to 100000 pixels" "$whit" good.pov +W0
 expect "an unknown picture type" 2 "cannot write pictures of type 'Q'" "$whit" good.pov +FQ
 expect "a missing scene" 3 "missing.pov" "$whit" missing.pov
 expect "a folder as scene" 3 "dir.pov" bash -c "mkdir -p dir.pov; '$whit' dir.pov"
-expect "a mistake in the scene" 1 "bad.pov:1:" "$whit" bad.pov
+expect "a mistake in the scene" 1 "bad.pov:" "$whit" bad.pov
 expect "a mistake leaves no picture" 1 "" bash -c "rm -f bad.png; '$whit' bad.pov; c=\$?; [ ! -e bad.png ] && exit \$c"
 expect "success is silent but for the scene's own words" 0 "clock 0.00" "$whit" good.pov
 check "the picture lies next to the scene" bash -c "'$whit' dir/inner.pov && [ -s dir/inner.png ]"
@@ -47,7 +47,7 @@ expect "the clock" 0 "clock 0.25" "$whit" good.pov +K0.25
 check "an animation" bash -c "'$whit' good.pov +KFF12 +SF2 +EF3 +Oan && [ -s an02.png ] && [ -s an03.png ] && [ ! -e an01.png ]"
 expect "declared from outside" 0 "7.5" bash -c "echo '#debug str(V,0,1)' >d.pov; '$whit' --check d.pov Declare=V=7.5"
 check "check renders nothing" bash -c "rm -f good.png; '$whit' --check good.pov && [ ! -e good.png ]"
-expect "check of a mistake" 1 "bad.pov:1:" "$whit" --check bad.pov
+expect "check of a mistake" 1 "bad.pov:" "$whit" --check bad.pov
 check "--explain tells the plan" bash -c "'$whit' --explain good.pov | grep -q ."
 check "alpha" bash -c "'$whit' good.pov +UA +Oua && [ -s ua.png ]"
 expect "diff of equal pictures" 0 "exact" bash -c "'$whit' good.pov; '$whit' diff good.png good.png"
