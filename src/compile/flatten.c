@@ -48,19 +48,23 @@ uint32_t build_texture(ShapeBuild *b, const Texture *texture, const Affine *plac
     return index;
 }
 
-/* Room for the rounding of hits and for the tolerances of inside tests, in proportion to the coordinates. */
+static double largest_finite(Vec3 v)
+{
+    double most = 0;
+    for (int axis = 0; axis < 3; axis++)
+        most = isfinite(vec3_at(v, axis)) ? fmax(most, fabs(vec3_at(v, axis))) : most;
+    return most;
+}
+
+/* Room for the rounding of hits and for the tolerances of inside tests, in proportion to the coordinates. What is unbounded has
+ * points as far away as the World goes, about 1. */
 static Bounds padded(Bounds b)
 {
     static const double room = 0x1p-30;
-    for (int axis = 0; axis < 3; axis++) {
-        double lo = vec3_at(b.lo, axis), hi = vec3_at(b.hi, axis);
-        if (isnan(lo) || isnan(hi))
-            return bounds_everything();
-        double size = fmax(isfinite(lo) ? fabs(lo) : 0, isfinite(hi) ? fabs(hi) : 0);
-        vec3_set(&b.lo, axis, lo - size * room);
-        vec3_set(&b.hi, axis, hi + size * room);
-    }
-    return b;
+    if (isnan(b.lo.x + b.lo.y + b.lo.z) || isnan(b.hi.x + b.hi.y + b.hi.z))
+        return bounds_everything();
+    double size = fmax(largest_finite(b.lo), largest_finite(b.hi));
+    return bounds_grown(b, room * (bounds_is_finite(b) ? size : fmax(size, 1)));
 }
 
 static uint32_t place_index(Compile *c, const Affine *place)

@@ -102,6 +102,6 @@ static Bounds extent(const void *params, const Affine *place)
 }
 
 const ShapeOps shape_cylinder = {
-    .keyword = "cylinder", .params_size = sizeof(Params), .flags = SHAPE_HAS_OPEN, .parse = parse, .compile = compile,
-    .hits = hits, .inside = inside, .surface = surface, .extent = extent,
+    .keyword = "cylinder", .params_size = sizeof(Params), .flags = SHAPE_HAS_OPEN | SHAPE_CONVEX, .parse = parse,
+    .compile = compile, .hits = hits, .inside = inside, .surface = surface, .extent = extent,
 };

@@ -67,6 +67,6 @@ static Bounds extent(const void *params, const Affine *place)
 }
 
 const ShapeOps shape_plane = {
-    .keyword = "plane", .params_size = sizeof(Params), .parse = parse, .compile = compile,
+    .keyword = "plane", .params_size = sizeof(Params), .flags = SHAPE_CONVEX, .parse = parse, .compile = compile,
     .hits = hits, .inside = inside, .surface = surface, .extent = extent,
 };

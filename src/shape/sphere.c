@@ -71,6 +71,6 @@ static Bounds extent(const void *params, const Affine *place)
 }
 
 const ShapeOps shape_sphere = {
-    .keyword = "sphere", .params_size = sizeof(Params), .flags = SHAPE_HAS_UV, .parse = parse, .compile = compile,
+    .keyword = "sphere", .params_size = sizeof(Params), .flags = SHAPE_HAS_UV | SHAPE_CONVEX, .parse = parse, .compile = compile,
     .hits = hits, .inside = inside, .surface = surface, .extent = extent,
 };
