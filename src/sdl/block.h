@@ -34,7 +34,7 @@ const void *parse_take_block(Parser *p, BlockKind kind);
 /* Is the next token a colour word (color, rgb, red...) or an identifier that holds a colour? (01-language, section 5) */
 bool parse_at_colour(Parser *p);
 
-/* The next token as it stands in the text: TOK_HASH where a directive begins, which is not run. */
+/* The next token as it stands in the text; no directive runs, no macro is called. TOK_END where a file, a loop or a macro ends. */
 int parse_peek_raw(Parser *p);
 
 /* "Expected 'what', ... found instead", with the next token described as 01-language section 33 says. */

@@ -92,6 +92,7 @@ extern const Finish FINISH_DEFAULT;
 
 const Pigment *pigment_body(Parser *p, const Pigment *base, PatternUse use);       /* of a pigment or a density */
 const Normal *normal_body(Parser *p, const Normal *base);  /* base may be NULL */
+bool normal_is_unfinished(const Normal *n);    /* no pattern was ever written */
 const Finish *finish_block(Parser *p, const Finish *base); /* at the brace */
 const Texture *texture_body(Parser *p);
 const Texture *texture_part(Parser *p, const Texture *top);        /* at pigment, normal or finish: top with that changed */

@@ -17,7 +17,7 @@ static void choose(Parser *p, Normal *n, PatternDraft *d, const PatternOps *ops)
     d->list = (ops->flags & PATTERN_LIST) != 0;
 }
 
-static bool choose_kind(Parser *p, Normal *n, PatternDraft *d)
+static void choose_kind(Parser *p, Normal *n, PatternDraft *d)
 {
     int keyword = parse_peek(p);
     switch (keyword) {
@@ -25,25 +25,24 @@ static bool choose_kind(Parser *p, Normal *n, PatternDraft *d)
         parse_skip(p);
         n->kind = NORMAL_BUMP_MAP;
         n->image = image_block(p, IMAGE_BUMP, &n->amount);
-        return true;
+        return;
     case KW_AVERAGE:
         parse_skip(p);
         n->kind = NORMAL_AVERAGE;
-        return true;
+        return;
     case KW_FACETS:
         parse_skip(p);
         n->kind = NORMAL_FACETS;
         n->facets_size = 0.1;
         n->facets_coords = 0;
         n->facets_metric = 2;
-        return true;
+        return;
     default: {
         const PatternOps *ops = pattern_row(p, keyword);
         if (ops == NULL)
-            return false;
+            return;                            /* `#default { normal { bump_size 2 } }`; checked when an object uses it */
         parse_skip(p);
         choose(p, n, d, ops);
-        return true;
     }
     }
 }
@@ -86,7 +85,6 @@ const Normal *normal_body(Parser *p, const Normal *base)
 {
     Loc loc = parse_loc(p);
     const Normal *known = parse_take_block(p, BLOCK_NORMAL);
-    bool started = known != NULL || base != NULL;
     if (known != NULL)
         base = known;
     Normal n = base != NULL ? *base : NORMAL_EMPTY;
@@ -103,8 +101,7 @@ const Normal *normal_body(Parser *p, const Normal *base)
     }
     PatternDraft d;
     pattern_begin(&d, n.pattern);
-    if (!choose_kind(p, &n, &d) && !started)
-        parse_fail(p, "No normal type given.");
+    choose_kind(p, &n, &d);
     n.amount = (float)parse_optional_float(p, n.amount);
     while (modifier(p, &n, &d))
         ;
@@ -121,6 +118,11 @@ const Normal *parse_normal(Parser *p)
     const Normal *n = normal_body(p, parse_blocks(p)->default_texture->normal);
     block_close(p, "normal");
     return n;
+}
+
+bool normal_is_unfinished(const Normal *n)
+{
+    return n != NULL && n != &NORMAL_EMPTY && n->kind == NORMAL_PATTERN && n->pattern->ops == NULL;
 }
 
 const Normal *normal_moved(Parser *p, const Normal *normal, const Moves *moves)

@@ -320,11 +320,20 @@ static bool plain_modifier(Parser *p, Object *o, int keyword)
     }
 }
 
+static void check_normals(Parser *p, const Texture *t)
+{
+    for (; t != NULL; t = t->below)
+        if (t->kind == TEXTURE_PLAIN && normal_is_unfinished(t->normal))
+            parse_fail(p, "No normal type given.");
+}
+
 /* After the last modifier: what can only be checked or joined now. */
 static void complete(Parser *p, Object *o)
 {
     if (o->interior_texture != NULL && o->texture == NULL)
         parse_fail(p, "Interior texture requires an exterior texture.");
+    check_normals(p, o->texture);
+    check_normals(p, o->interior_texture);
     for (const Texture *t = o->texture; t != NULL; t = t->below)
         if (t->kind == TEXTURE_PLAIN && (t->finish->has_ior || t->finish->has_caustics || t->finish->has_refraction)) {
             o->interior = interior_with_finish(p, o->interior, t->finish);

@@ -28,13 +28,18 @@ int parse_peek(Parser *p)
     return p->token.kind;
 }
 
+/* Nothing is taken: a macro that stands next must not run before what is being read is declared. */
 int parse_peek_raw(Parser *p)
 {
-    bool was = p->suspended;
-    p->suspended = true;
-    look(p);
-    p->suspended = was;
-    return p->token.kind;
+    Token t = p->token;
+    if (p->have)
+        return t.kind;
+    const Reader *r = &p->reader[p->n_readers - 1];
+    if (!r->is_file)
+        return r->at < r->n ? r->tokens[r->at].kind : TOK_END;
+    Lexer ahead = r->lexer;
+    lex_next(p, &ahead, &t);
+    return t.kind;
 }
 
 void parse_skip(Parser *p)

@@ -118,7 +118,7 @@ static Index3 face_textures(Parser *p, const MeshParams *m)
     t.v[0] = checked(p, parse_float(p), m->n_textures, "texture");
     parse_comma(p);
     t.v[1] = t.v[2] = t.v[0];
-    for (int k = 1; k < 3 && parse_at_number(p); k++) {
+    for (int k = 1; k < 3 && parse_peek(p) != TOK_LESS && parse_at_number(p); k++) {
         t.v[k] = checked(p, parse_float(p), m->n_textures, "texture");
         parse_comma(p);
     }
