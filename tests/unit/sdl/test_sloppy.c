@@ -67,7 +67,10 @@ static void meshes_may_have_commas_before_their_braces(void **state)
 static void zero_normals_in_a_mesh_are_a_warning(void **state)
 {
     (void)state;
-    accepted(HEAD "mesh2 { vertex_vectors { 3, <0,0,0>, <1,0,0>, <0,1,0> } normal_vectors { 3, 0, 0, 0 } face_indices { 1, <0,1,2> } }");
+    Parsed *s = parsed(HEAD "mesh2 { vertex_vectors { 3, <0,0,0>, <1,0,0>, <0,1,0> } normal_vectors { 3, 0, 0, 0 } face_indices { 1, <0,1,2> } }");
+    only_object(s);
+    assert_true(said(s, DIAG_WARNING, "cannot be zero"));
+    parsed_free(s);
 }
 
 static void a_union_may_have_few_children_or_none(void **state)
