@@ -27,14 +27,13 @@ static Colour legacy_sky(const SkySphere *sky, Vec3 p, Colour background)
     Rgb sum = rgb_grey(0);
     Colour passed = { 1, 1, 1, 1, 1 };
     float through = 1;
-    for (uint32_t i = sky != NULL ? sky->n : 0; i-- > 0;) {
+    for (uint32_t i = sky->n; i-- > 0;) {
         Colour c = pigment_colour(sky->pigment[i], p, NULL, NULL);
         sum = rgb_add(sum, rgb_scaled(rgb_of(c), through * (1 - c.f - c.t)));
         passed = (Colour){ passed.r * c.r, passed.g * c.g, passed.b * c.b, passed.f * c.f, passed.t * c.t };
         through = fabsf(passed.f) + fabsf(passed.t);
     }
-    if (sky != NULL)
-        sum = rgb_mul(sum, sky->emission);
+    sum = rgb_mul(sum, sky->emission);
     sum = rgb_add(sum, rgb_mul(rgb_of(background), colour_transmittance(passed)));
     return (Colour){ sum.r, sum.g, sum.b, 0, background.t * passed.t };
 }
@@ -47,7 +46,7 @@ Colour sky_colour(const Tracing *tracing, Vec3 d, bool alpha)
     Vec3 p = sky != NULL ? affine_point_back(&sky->place, d) : d;
     Colour background = tracing->background;
     if (tracing->legacy)
-        return legacy_sky(sky, p, background);
+        return sky != NULL && sky->n > 0 ? legacy_sky(sky, p, background) : background;
     if (!alpha)
         background.f = background.t = 0;
     return layered_sky(sky, p, background);
