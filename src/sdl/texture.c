@@ -321,3 +321,21 @@ const Texture *parse_texture(Parser *p)
     block_close(p, "texture");
     return t;
 }
+
+bool parse_part_item(Parser *p, const Texture **texture, Affine *place)
+{
+    int keyword = parse_peek(p);
+    if (keyword == KW_TEXTURE) {
+        *texture = texture_layered(p, *texture, parse_texture(p));
+    } else if (keyword == KW_PIGMENT || keyword == KW_NORMAL || keyword == KW_FINISH) {
+        *texture = texture_part(p, *texture != NULL ? *texture : parse_blocks(p)->default_texture);
+    } else {
+        Moves moves = { .n = 1 };
+        if (!parse_move(p, &moves.move[0]))
+            return false;
+        *place = affine_then(*place, moves.move[0]);
+        if (*texture != NULL)
+            *texture = texture_moved(p, *texture, &moves);
+    }
+    return true;
+}
