@@ -1,12 +1,15 @@
 /* func.h - user functions as register code, evaluated over lanes of points.
  *
- * sdl builds a FuncExpr tree, func_compile turns it into code once, and the same code serves parse-time calls,
- * isosurfaces, function patterns and parametric surfaces. Patterns, pigments and splines inside functions are reached
- * through FuncHost entries, so this room knows none of them. */
+ * Who reads a function (sdl) builds it node by node with a FuncBuilder, bottom up; equal nodes are one, constants fold, and
+ * called functions dissolve into their caller. func_finish turns the nodes into code once, and the same code serves parse-time
+ * calls, isosurfaces, function patterns and parametric surfaces. Patterns, pigments, transforms and splines inside functions are
+ * reached through a FuncHost, so this room knows none of them. */
 #ifndef FUNC_FUNC_H
 #define FUNC_FUNC_H
 
-#include "base/diag.h"
+#include <stdint.h>
+
+#include "base/arena.h"
 #include "math/colour.h"
 #include "math/vec.h"
 
@@ -21,5 +24,57 @@ double func_call(const Function *f, const double *arguments);          /* one po
 void func_eval(const Function *f, const double *const *arguments, double *out, uint32_t n);
 /* Pigment and spline functions have vector or colour values: fills 5 numbers, returns false for scalar functions. */
 bool func_call_vector(const Function *f, const double *arguments, double out[5]);
+
+/* Values of f wherever each parameter lies between lo and hi. False if nothing is known (noise, pigments, NaN...). */
+typedef struct FuncRange { double lo, hi; } FuncRange;
+bool func_range(const Function *f, const FuncRange *arguments, FuncRange *out);
+
+/* Something a function asks of another room. `call` must work from any thread; it fills `terms` numbers. */
+typedef struct FuncHost {
+    void (*call)(const void *data, const double *arguments, double *out);
+    const void *data;
+    int parameters, terms;
+} FuncHost;
+
+const Function *func_of_host(Arena *arena, const FuncHost *host);      /* copies the struct, not what `data` points to */
+
+/* f_* number n of 01-language, section 18; NULL if there is none. noise_generator: the scene's, read when noise is asked. */
+const Function *func_internal(Arena *arena, int number, const int *noise_generator);
+
+/* The operations of functions; a tree of them is written bottom up. */
+typedef enum FuncOp {
+    FUNC_NUMBER, FUNC_PARAMETER,
+    FUNC_NEG, FUNC_ABS, FUNC_FLOOR, FUNC_CEIL, FUNC_INT, FUNC_SQRT, FUNC_EXP, FUNC_LN, FUNC_LOG, FUNC_SIN, FUNC_COS, FUNC_TAN,
+    FUNC_ASIN, FUNC_ACOS, FUNC_ATAN, FUNC_SINH, FUNC_COSH, FUNC_TANH, FUNC_ASINH, FUNC_ACOSH, FUNC_ATANH,
+    FUNC_ADD, FUNC_SUB, FUNC_MUL, FUNC_DIV, FUNC_EQ, FUNC_NE, FUNC_LT, FUNC_LE, FUNC_GT, FUNC_GE, FUNC_AND, FUNC_OR, FUNC_POW,
+    FUNC_MOD, FUNC_ATAN2, FUNC_MIN, FUNC_MAX,
+    FUNC_IF_NEGATIVE,                          /* a < 0 ? b : c */
+    FUNC_IF_ZERO,                              /* a = 0 ? b : c */
+    FUNC_SUM, FUNC_PROD, FUNC_CALL, FUNC_HOST, FUNC_NATIVE, FUNC_NOISE,
+    N_FUNC_OPS
+} FuncOp;
+
+/* What to take of a vector value. */
+typedef enum FuncPart { FUNC_X, FUNC_Y, FUNC_Z, FUNC_T, FUNC_FIFTH, FUNC_GREY, FUNC_HF } FuncPart;
+
+typedef struct FuncBuilder FuncBuilder;
+typedef uint32_t FuncNode;
+
+FuncBuilder *func_builder(Arena *arena, int parameters);
+FuncNode func_number(FuncBuilder *b, double v);
+FuncNode func_parameter(FuncBuilder *b, int i);
+FuncNode func_unary(FuncBuilder *b, FuncOp op, FuncNode a);
+FuncNode func_binary(FuncBuilder *b, FuncOp op, FuncNode x, FuncNode y);
+FuncNode func_choice(FuncBuilder *b, FuncOp op, FuncNode a, FuncNode x, FuncNode y);     /* FUNC_IF_... */
+/* `part` counts for vector functions only. */
+FuncNode func_apply(FuncBuilder *b, const Function *f, const FuncNode *arguments, FuncPart part);
+bool func_is_number(const FuncBuilder *b, FuncNode a, double *v);      /* is its value known already? */
+
+/* sum and prod: the body is a function of the outer parameters and, after them, the variable of the loop. */
+FuncBuilder *func_loop_body(FuncBuilder *outer);
+FuncNode func_loop(FuncBuilder *outer, FuncOp op, FuncNode from, FuncNode to, const Function *body);
+
+/* NULL if it needs more registers than there are (thousands). */
+const Function *func_finish(FuncBuilder *b, FuncNode result);
 
 #endif

@@ -1,0 +1,88 @@
+/* eval.c - calls functions: picks the kernel of this machine and the width for the number of points. */
+#include <math.h>
+
+#include "func/code.h"
+
+#define DECLARE(isa) extern const EvalKernel eval_kernel_##isa[1];
+CPU_ISAS(DECLARE)
+
+static const EvalKernel *const kernels[] = CPU_TABLE(eval_kernel);
+static const EvalKernel *kernel;               /* written once, before main */
+
+__attribute__((constructor)) static void choose_kernel(void)
+{
+    kernel = kernels[cpu_isa()];
+}
+
+const EvalKernel *code_kernel(CpuIsa isa)
+{
+    return kernels[isa];
+}
+
+int func_parameters(const Function *f)
+{
+    return f->parameters;
+}
+
+int func_terms(const Function *f)
+{
+    return f->terms;
+}
+
+static double host_scalar(const FuncHost *host, const double *arguments)
+{
+    double out[5] = { 0 };
+    host->call(host->data, arguments, out);
+    return out[0];
+}
+
+double func_call(const Function *f, const double *arguments)
+{
+    return f->host != NULL ? host_scalar(f->host, arguments) : kernel->one(f, arguments);
+}
+
+bool func_call_vector(const Function *f, const double *arguments, double out[5])
+{
+    if (f->terms == 1)
+        return false;
+    for (int i = 0; i < 5; i++)
+        out[i] = 0;
+    f->host->call(f->host->data, arguments, out);
+    return true;
+}
+
+void func_eval(const Function *f, const double *const *arguments, double *out, uint32_t n)
+{
+    uint32_t lanes = (uint32_t)kernel->lanes;
+    for (uint32_t at = 0; at < n; at += lanes) {
+        uint32_t here = n - at < lanes ? n - at : lanes;
+        const double *row[FUNC_MAX_PARAMETERS];
+        for (int k = 0; k < f->parameters; k++)
+            row[k] = arguments[k] + at;
+        if (f->host != NULL || here == 1) {
+            for (uint32_t l = 0; l < here; l++) {
+                double one[FUNC_MAX_PARAMETERS];
+                for (int k = 0; k < f->parameters; k++)
+                    one[k] = row[k][l];
+                out[at + l] = func_call(f, one);
+            }
+        } else if (here <= 4) {
+            kernel->few(f, row, out + at, (int)here);
+        } else {
+            kernel->many(f, row, out + at, (int)here);
+        }
+    }
+}
+
+double code_fold(unsigned op, double a, double b, double c)
+{
+    const double k = b;
+    switch (op) {
+#define UNARY(name, value) case name: return value;
+#define BINARY(name, value) case name: return value;
+#define TERNARY(name, value) case name: return value;
+#define WITH_K(name, value) case name: return value;
+#include "func/operations.h"
+    default: return NAN;
+    }
+}

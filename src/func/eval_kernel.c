@@ -1,0 +1,153 @@
+/* eval_kernel.c - the interpreter of function code, built once per instruction set and within it for 1, 4 and LANES points.
+ *
+ * Every instruction is a plain loop over the lanes that the compiler turns into vector code; the cost of finding out what to do is
+ * shared by all lanes. All widths and sets give the same bits: only IEEE operations and the C library are used, lane by lane. */
+#include <math.h>
+#include <string.h>
+
+#include "func/code.h"
+#include "math/noise.h"
+
+#ifndef LANES
+#define LANES 8
+#endif
+
+#define INLINE static inline __attribute__((always_inline))
+
+typedef void Run(const Function *f, const double *const *arguments, double *out, int n);
+
+/* The longest sum anybody waits for. */
+static const double MAX_TURNS = 1e9;
+
+INLINE void run_loop(const Instr *i, const uint16_t *argument, double *r, const int width, int n, Run *run)
+{
+    const double *row[CODE_MAX_ARGUMENTS];
+    double *acc = r + i->dst * width, index[width], value[width], at[width], to[width];
+    int outer = i->n - 2;                      /* arguments: from, to, then the outer parameters */
+    for (int k = 0; k < outer; k++)
+        row[k] = r + argument[i->a + 2 + k] * width;
+    row[outer] = at;
+    memcpy(index, r + argument[i->a] * width, sizeof index);
+    memcpy(to, r + argument[i->a + 1] * width, sizeof to);
+    double sum[width];
+    for (int l = 0; l < width; l++)
+        sum[l] = i->op == FUNC_SUM ? 0 : 1;
+    for (double turn = 0; turn < MAX_TURNS; turn++) {
+        bool any = false;
+        for (int l = 0; l < n; l++)
+            any = any || index[l] <= to[l];
+        if (!any)
+            break;
+        memcpy(at, index, sizeof at);
+        run(i->callee, row, value, n);
+        for (int l = 0; l < n; l++) {
+            if (index[l] <= to[l])
+                sum[l] = i->op == FUNC_SUM ? sum[l] + value[l] : sum[l] * value[l];
+            index[l] += 1;
+        }
+    }
+    memcpy(acc, sum, sizeof sum);
+}
+
+INLINE void run_call(const Instr *i, const uint16_t *argument, double *r, const int width, int n, Run *run)
+{
+    double *d = r + i->dst * width;
+    if (i->op == FUNC_CALL) {
+        const double *row[CODE_MAX_ARGUMENTS];
+        double value[width];
+        for (int k = 0; k < i->n; k++)
+            row[k] = r + argument[i->a + k] * width;
+        run(i->callee, row, value, n);
+        memcpy(d, value, (size_t)n * sizeof *d);
+        return;
+    }
+    for (int l = 0; l < n; l++) {
+        double v[CODE_MAX_ARGUMENTS], out[5] = { 0 };
+        for (int k = 0; k < i->n; k++)
+            v[k] = r[argument[i->a + k] * width + l];
+        if (i->op == FUNC_NATIVE) {
+            d[l] = (*(FuncNative *const *)i->callee)(v);
+        } else if (i->op == FUNC_NOISE) {
+            d[l] = noise_value(*(const int *)i->callee, vec3(v[0], v[1], v[2]));
+        } else {
+            const FuncHost *host = i->callee;
+            host->call(host->data, v, out);
+            d[l] = code_part(out, i->c);
+        }
+    }
+}
+
+/* n <= width points; r has their parameters in the first registers. Returns the register row of the value. */
+INLINE const double *run_code(const Function *f, double *r, const int width, int n, Run *run)
+{
+    for (const Instr *i = f->code; ; i++) {
+        double *d = r + i->dst * width;
+        const double *x = r + i->a * width;
+        switch (i->op) {
+        /* ivdep: d may be one of the operands, but never overlaps one by part of a row. */
+#define EACH(op, needs, value)                                                                                         \
+    case op: {                                                                                                         \
+        needs                                                                                                          \
+        _Pragma("GCC ivdep")                                                                                           \
+        for (int l = 0; l < width; l++) {                                                                              \
+            double a = x[l];                                                                                           \
+            d[l] = (value);                                                                                            \
+        }                                                                                                              \
+        break;                                                                                                         \
+    }
+#define UNARY(op, value) EACH(op, , value)
+#define BINARY(op, value) EACH(op, const double *y = r + i->b * width;, (b_of(y[l], value)))
+#define TERNARY(op, value)                                                                                             \
+    EACH(op, const double *y = r + i->b * width; const double *z = r + i->c * width;, (bc_of(y[l], z[l], value)))
+#define WITH_K(op, value) EACH(op, const double k = i->k;, value)
+#define b_of(from, value) ({ double b = from; value; })
+#define bc_of(from_b, from_c, value) ({ double b = from_b, c = from_c; value; })
+#include "func/operations.h"
+        case FUNC_NUMBER: {
+            const double k = i->k;
+            for (int l = 0; l < width; l++)
+                d[l] = k;
+            break;
+        }
+        case FUNC_SUM: case FUNC_PROD: run_loop(i, f->argument, r, width, n, run); break;
+        case FUNC_CALL: case FUNC_HOST: case FUNC_NATIVE: case FUNC_NOISE: run_call(i, f->argument, r, width, n, run); break;
+        default: return x;                     /* CODE_END */
+        }
+    }
+}
+
+INLINE void run_rows(const Function *f, const double *const *arguments, double *out, const int width, int n, Run *run)
+{
+    double r[f->n_registers * (unsigned)width] __attribute__((aligned(64)));
+    for (int k = 0; k < f->parameters; k++)
+        for (int l = 0; l < width; l++)
+            r[k * width + l] = arguments[k][l < n ? l : 0];    /* idle lanes repeat a point: no stray NaN or denormal */
+    const double *value = run_code(f, r, width, n, run);
+    for (int l = 0; l < n; l++)
+        out[l] = value[l];
+}
+
+static void run_1(const Function *f, const double *const *arguments, double *out, int n)
+{
+    run_rows(f, arguments, out, 1, n, run_1);
+}
+
+static void run_4(const Function *f, const double *const *arguments, double *out, int n)
+{
+    run_rows(f, arguments, out, 4, n, run_4);
+}
+
+static void run_lanes(const Function *f, const double *const *arguments, double *out, int n)
+{
+    run_rows(f, arguments, out, LANES, n, run_lanes);
+}
+
+static double run_one(const Function *f, const double *arguments)
+{
+    double r[f->n_registers];
+    for (int k = 0; k < f->parameters; k++)
+        r[k] = arguments[k];
+    return *run_code(f, r, 1, 1, run_1);
+}
+
+const EvalKernel ISA_NAME(eval_kernel)[1] = { { .lanes = LANES, .one = run_one, .few = run_4, .many = run_lanes } };
