@@ -145,6 +145,13 @@ static void resolve(Parser *p)
 void cursor_fetch(Parser *p)
 {
     for (;;) {
+        Reader *r = top(p);
+        if (!p->have && !r->is_file && !p->suspended && r->at < r->n && r->tokens[r->at].kind == TOK_HASH) {
+            directive_run(p, &r->tokens[r->at++]);             /* the common case in loops, without copies */
+            if (p->have && p->token.kind != TOK_HASH)
+                return;
+            continue;
+        }
         if (!p->have)
             cursor_raw(p, &p->token);
         p->have = true;
@@ -408,6 +415,9 @@ static void take_open(Parser *p)
 static bool condition(Parser *p)
 {
     Num n;
+    bool plain;
+    if (fast_condition(p, &plain))
+        return plain;
     expr_condition(p, &n);
     return fabs(num_float(p, &n)) > EPSILON;
 }

@@ -317,14 +317,17 @@ static void run(Parser *p, const Token *t)
 /* Whatever a directive makes in temporary memory dies with it. */
 void directive_run(Parser *p, const Token *t)
 {
-    ArenaMark mark = arena_mark(&p->temp);
+    if ((t->directive == KW_DECLARE || t->directive == KW_LOCAL) && fast_declare(p, t->directive == KW_LOCAL))
+        return;
+    ArenaMark mark = { p->temp.block, p->temp.next, p->temp.used };
     bool was = p->suspended;
     p->suspended = false;
     cursor_deeper(p);
     run(p, t);
     p->depth--;
     p->suspended = was;
-    arena_rewind(&p->temp, mark);
+    if (p->temp.used != mark.used)
+        arena_rewind(&p->temp, mark);
 }
 
 /* At scene level `declare` and the like count without their '#'. */

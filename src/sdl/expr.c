@@ -8,13 +8,6 @@
 
 #include "sdl/parser.h"
 
-static inline int look(Parser *p)
-{
-    if (!p->have || (p->token.kind == TOK_HASH && !p->suspended))
-        cursor_fetch(p);
-    return p->token.kind;
-}
-
 /* A float goes to all terms, a vector is padded with 0. */
 void num_promote(Num *n, int terms)
 {
@@ -118,7 +111,7 @@ static void spline_call(Parser *p, const Spline *s, Num *out)
     double t = expr_float(p);
     SplineKind kind = s->kind;
     parse_comma(p);
-    if (spline_kind(look(p), &kind))
+    if (spline_kind(cursor_look(p), &kind))
         p->have = false;
     parse_expect(p, TOK_RPAREN);
     spline_at(s, kind, t, out->v);
@@ -195,7 +188,7 @@ static void operand(Parser *p, Num *out)
 {
     bool was = p->suspended;
     p->suspended = false;
-    int kind = look(p);
+    int kind = cursor_look(p);
     switch (kind) {
     case TOK_NUMBER:
         set(out, p->token.number);
@@ -244,9 +237,9 @@ static int component_of(int keyword)
 
 static void components(Parser *p, Num *n)
 {
-    while (look(p) == TOK_DOT) {
+    while (cursor_look(p) == TOK_DOT) {
         p->have = false;
-        int i = component_of(look(p));
+        int i = component_of(cursor_look(p));
         if (i < 0)
             parse_expected(p, "x, y, z, t, u, v or color component");
         if (i == 5 ? n->terms < 3 : i >= n->terms)
@@ -261,7 +254,7 @@ static void factor(Parser *p, Num *out)
 {
     bool was = p->suspended;
     p->suspended = false;
-    int kind = look(p);
+    int kind = cursor_look(p);
     p->suspended = was;
     if (kind == TOK_PLUS || kind == TOK_MINUS || kind == TOK_NOT) {
         cursor_deeper(p);
@@ -287,7 +280,7 @@ static void match_terms(Num *a, Num *b)
 static void product_rest(Parser *p, Num *out)
 {
     for (;;) {
-        int kind = look(p);
+        int kind = cursor_look(p);
         if (kind != TOK_STAR && kind != TOK_SLASH)
             return;
         Loc loc = p->token.loc;
@@ -300,9 +293,9 @@ static void product_rest(Parser *p, Num *out)
                 out->v[i] *= b.v[i];
                 continue;
             }
-            if (b.v[i] == 0)
+            if (b.v[i] == 0)                   /* POV: infinity, whatever is divided */
                 warn(p->diag, loc, "Divide by zero.");
-            out->v[i] /= b.v[i];
+            out->v[i] = b.v[i] == 0 ? INFINITY : out->v[i] / b.v[i];
         }
     }
 }
@@ -316,7 +309,7 @@ static void product(Parser *p, Num *out)
 static void sum_rest(Parser *p, Num *out)
 {
     for (;;) {
-        int kind = look(p);
+        int kind = cursor_look(p);
         if (kind != TOK_PLUS && kind != TOK_MINUS)
             return;
         p->have = false;
@@ -330,6 +323,10 @@ static void sum_rest(Parser *p, Num *out)
 
 void expr_sum(Parser *p, Num *out)
 {
+    if (fast_sum(p, &out->v[0])) {
+        out->terms = 1;
+        return;
+    }
     factor(p, out);
     if (p->version < 150)                      /* operators need parentheses */
         return;
@@ -344,7 +341,7 @@ void expr_sum_rest(Parser *p, Num *first)
     sum_rest(p, first);
 }
 
-static double relation(int kind, double a, double b)
+double expr_relation(int kind, double a, double b)
 {
     switch (kind) {
     case TOK_LESS: return a < b;
@@ -365,7 +362,7 @@ static bool is_relation(int kind)
 static void relation_rest(Parser *p, Num *out)
 {
     for (;;) {
-        int kind = look(p);
+        int kind = cursor_look(p);
         if (!is_relation(kind))
             return;
         p->have = false;
@@ -374,7 +371,7 @@ static void relation_rest(Parser *p, Num *out)
         sum_rest(p, &b);
         match_terms(out, &b);
         for (int i = 0; i < out->terms; i++)
-            out->v[i] = relation(kind, out->v[i], b.v[i]);
+            out->v[i] = expr_relation(kind, out->v[i], b.v[i]);
     }
 }
 
@@ -383,17 +380,17 @@ static bool string_relation(Parser *p, Num *out)
 {
     bool was = p->suspended;
     p->suspended = false;
-    look(p);
+    cursor_look(p);
     p->suspended = was;
     if (!kind_starts_string(p))
         return false;
     Str a = string_expression(p, false);
-    int kind = look(p);
+    int kind = cursor_look(p);
     if (!is_relation(kind))
         parse_expected(p, "comparison operator");
     p->have = false;
     Str b = string_expression(p, false);
-    set(out, relation(kind, string_compare(a, b), 0));
+    set(out, expr_relation(kind, string_compare(a, b), 0));
     return true;
 }
 
@@ -409,7 +406,7 @@ static void comparison(Parser *p, Num *out)
 static void logic_rest(Parser *p, Num *out)
 {
     for (;;) {
-        int kind = look(p);
+        int kind = cursor_look(p);
         if (kind != TOK_AND && kind != TOK_OR)
             return;
         p->have = false;
@@ -424,7 +421,7 @@ static void logic_rest(Parser *p, Num *out)
 /* `a ? b : c`: both are read and evaluated, whichever is taken. */
 static void choice_rest(Parser *p, Num *out)
 {
-    if (look(p) != TOK_QUESTION)
+    if (cursor_look(p) != TOK_QUESTION)
         return;
     p->have = false;
     bool first = truth(num_float(p, out));

@@ -143,6 +143,22 @@ void cursor_stop_check(Parser *p);             /* fails if somebody asked to sto
 const Token *cursor_body(Parser *p, const Token *directive, uint32_t at, uint32_t *first, uint32_t *last);
 void cursor_deeper(Parser *p);                 /* p->depth++, within the limit */
 
+/* Fills the look-ahead, if it is empty, and returns its kind. */
+static inline int cursor_look(Parser *p)
+{
+    if (p->have && (p->token.kind != TOK_HASH || p->suspended))
+        return p->token.kind;
+    Reader *r = &p->reader[p->n_readers - 1];
+    if (!p->have && !r->is_file && r->at < r->n && r->tokens[r->at].kind != TOK_HASH && r->tokens[r->at].kind != TOK_NAME) {
+        p->token = r->tokens[r->at++];
+        p->have = true;
+        p->value = NULL;
+        return p->token.kind;
+    }
+    cursor_fetch(p);
+    return p->token.kind;
+}
+
 /* directive.c */
 void directive_flush_debug(Parser *p);
 void directive_run(Parser *p, const Token *t);
@@ -155,7 +171,10 @@ void macro_call(Parser *p, const Macro *macro, Loc loc);
 /* symbol.c */
 Sym *symbol_intern(Parser *p, const char *text, size_t n);
 void symbols_init(Parser *p);
-Value *symbol_value(const Sym *s);             /* NULL: undeclared */
+static inline Value *symbol_value(const Sym *s)            /* NULL: undeclared; of kind NONE: holds nothing any more */
+{
+    return s->binding ? s->binding->value : NULL;
+}
 Binding *symbol_bind(Parser *p, Sym *s, uint32_t table);   /* a new binding that hides the others */
 /* Of #declare and #local in that table: the innermost binding from there on outward, or a new one. */
 Binding *symbol_declare(Parser *p, Sym *s, bool local, uint32_t table);
@@ -179,6 +198,13 @@ Vec3 num_vec3(Parser *p, const Num *n);
 bool kind_starts_number(const Parser *p);      /* of the look-ahead */
 void num_from_value(Num *out, const Value *v);
 void expr_condition(Parser *p, Num *out);      /* ( full ), the outermost level suspended */
+
+double expr_relation(int kind, double a, double b);        /* TOK_LESS...: 0 or 1 */
+
+/* fast.c: true if it could be done on the spot; else nothing has been taken. */
+bool fast_sum(Parser *p, double *out);
+bool fast_condition(Parser *p, bool *out);
+bool fast_declare(Parser *p, bool local);
 
 /* builtin_math.c, builtin_text.c: false if the keyword in the look-ahead is not theirs. */
 bool builtin_number(Parser *p, int keyword, Num *out);

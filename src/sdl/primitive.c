@@ -10,21 +10,15 @@ const struct World *parse_world_of(Parser *p, const Object *o, uint32_t *item) {
 Diag *parse_diag(Parser *p) { return p->diag; }
 int parse_version(const Parser *p) { return p->version; }
 
-static inline void look(Parser *p)
-{
-    if (!p->have || (p->token.kind == TOK_HASH && !p->suspended))
-        cursor_fetch(p);
-}
-
 Loc parse_loc(Parser *p)
 {
-    look(p);
+    cursor_look(p);
     return p->token.loc;
 }
 
 int parse_peek(Parser *p)
 {
-    look(p);
+    cursor_look(p);
     return p->token.kind;
 }
 
@@ -44,13 +38,13 @@ int parse_peek_raw(Parser *p)
 
 void parse_skip(Parser *p)
 {
-    look(p);
+    cursor_look(p);
     p->have = p->token.kind == TOK_END;        /* the end is never behind us */
 }
 
 bool parse_accept(Parser *p, int kind)
 {
-    look(p);
+    cursor_look(p);
     if (p->token.kind != kind)
         return false;
     p->have = kind == TOK_END;
@@ -137,7 +131,7 @@ const char *token_description(Parser *p)
 
 _Noreturn void parse_expected(Parser *p, const char *what)
 {
-    look(p);
+    cursor_look(p);
     fail(p->diag, p->token.loc, "Expected '%s', %s found instead", what, token_description(p));
 }
 
@@ -167,7 +161,7 @@ void parse_comma(Parser *p)
 
 bool parse_at_number(Parser *p)
 {
-    look(p);
+    cursor_look(p);
     return kind_starts_number(p);
 }
 
@@ -278,7 +272,7 @@ Str parse_file_name(Parser *p)
 
 BlockKind parse_peek_block(Parser *p)
 {
-    look(p);
+    cursor_look(p);
     return p->token.kind == TOK_NAME && p->value && p->value->kind == VALUE_BLOCK ? (BlockKind)p->value->block : BLOCK_NONE;
 }
 
@@ -292,7 +286,7 @@ const void *parse_take_block(Parser *p, BlockKind kind)
 
 bool parse_at_colour(Parser *p)
 {
-    look(p);
+    cursor_look(p);
     return kind_starts_colour(p);
 }
 

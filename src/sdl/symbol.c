@@ -86,11 +86,6 @@ void symbols_init(Parser *p)
     p->n_tables = 1;
 }
 
-Value *symbol_value(const Sym *s)
-{
-    return s->binding ? s->binding->value : NULL;
-}
-
 Binding *symbol_bind(Parser *p, Sym *s, uint32_t table)
 {
     Binding *b = p->free_bindings;
