@@ -32,16 +32,23 @@ static double gamma_p(double a, double x)
     return 1 - scale * h;
 }
 
-double chi_square_quantile(uint32_t degrees, double p)
+/* The share above x. `excess` is added to ln gamma(a). */
+static double share_above(double a, double x, double excess)
+{
+    double below = gamma_p(a, x);
+    return x < 1 || x < a ? 1 - below * exp(-excess) : (1 - below) * exp(-excess);
+}
+
+static double quantile(uint32_t degrees, double p, double excess)
 {
     double a = degrees / 2.0, low = 0, high = 1;
-    while (1 - gamma_p(a, high / 2) > p)
+    while (share_above(a, high / 2, excess) > p)
         high *= 2;
     for (int i = 0; i < 200 && low < high; i++) {
         double middle = (low + high) / 2;
         if (middle <= low || middle >= high)
             break;
-        if (1 - gamma_p(a, middle / 2) > p)
+        if (share_above(a, middle / 2, excess) > p)
             low = middle;
         else
             high = middle;
@@ -49,14 +56,25 @@ double chi_square_quantile(uint32_t degrees, double p)
     return (low + high) / 2;
 }
 
+double chi_square_quantile(uint32_t degrees, double p)
+{
+    return quantile(degrees, p, 0);
+}
+
+/* POV: its logarithm of gamma(a) is too large by this for half-integers below 13 (fitted to where it stops). */
+static double pov_quantile(uint32_t degrees, double p)
+{
+    return quantile(degrees, p, degrees % 2 == 1 && degrees < 26 ? 0.0395696 : 0);
+}
+
 static const double *thresholds(Arena *arena, uint32_t n, double confidence, double variance)
 {
     double *threshold = arena_array(arena, double, n + 1);
     if (n < 2)
         return threshold;
-    double first = variance / chi_square_quantile(n - 1, confidence);
+    double first = variance / pov_quantile(n - 1, confidence);
     for (uint32_t m = 1; m <= n; m++)
-        threshold[m] = first * chi_square_quantile(m, confidence);
+        threshold[m] = first * pov_quantile(m, confidence);
     return threshold;
 }
 

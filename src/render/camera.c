@@ -39,6 +39,15 @@ static Vec3 turned(Vec3 v, Vec3 axis, double angle)
     return blend(v, cos(angle), cross(axis, v), sin(angle), axis, dot(axis, v) * (1 - cos(angle)));
 }
 
+/* POV: from -90 degrees to 270; only camera normals see the difference. */
+static double angle_around(double p, double q, double r)
+{
+    if (r == 0)
+        return 0;
+    double a = asin(fmin(1, fmax(-1, q / r)));
+    return p < 0 ? PI - a : a;
+}
+
 /* theta off the view axis, phi around it. */
 static Vec3 off_axis(const Camera *c, double phi, double theta)
 {
@@ -51,7 +60,7 @@ static bool fisheye(const Camera *c, double u, double v, CameraRay *out)
     double r = sqrt(p * p + q * q);
     if (r > 1)
         return false;
-    out->work = (Vec2){ r > 0 ? atan2(q, p) : 0, r * c->angle / 2 };
+    out->work = (Vec2){ angle_around(p, q, r), r * c->angle / 2 };
     out->d = off_axis(c, out->work.u, out->work.v);
     return true;
 }
@@ -73,7 +82,7 @@ static bool omnimax(const Camera *c, double u, double v, CameraRay *out)
     double r = sqrt(p * p + q * q);
     if (r > 1)
         return false;
-    double phi = r > 0 ? atan2(q, p) : 0;
+    double phi = angle_around(p, q, r);
     double theta = 1.411269 * r - 0.09439 * r * r * r + 0.25674 * r * r * r * r * r;
     out->work = (Vec2){ phi, theta };
     out->d = off_axis(c, phi, theta);
