@@ -18,17 +18,21 @@ static const float ITEM_COST = 1.5f;
 
 typedef struct Box { float lo[3], hi[3]; } Box;
 
+typedef struct Item {                          /* sorted in place: every pass over a range reads on in memory */
+    Box box;
+    uint32_t index;
+} Item;
+
 typedef struct Range {
     uint32_t first, n;
-    Box box;
+    Box box, middles;                          /* of the items, and of their middles */
     bool whole;                                /* stays a leaf */
 } Range;
 
 typedef struct Builder {
     Bvh *bvh;
     Arena *arena;
-    const Box *box;                            /* of each item */
-    uint32_t *item;                            /* permuted */
+    Item *item;
     uint32_t capacity;
 } Builder;
 
@@ -52,7 +56,7 @@ static float box_area(const Box *b)
     return x >= 0 && y >= 0 && z >= 0 ? x * y + y * z + z * x : 0;
 }
 
-/* Twice the middle, kept finite. */
+/* Kept finite: one odd box must not spoil the others' bins. */
 static float box_middle(const Box *b, int axis)
 {
     float m = b->lo[axis] * 0.5f + b->hi[axis] * 0.5f;
@@ -63,9 +67,9 @@ static Box box_outward(const Bounds *b)
 {
     Box out;
     for (int i = 0; i < 3; i++) {
-        double lo = vec3_at(b->lo, i), hi = vec3_at(b->hi, i);
-        out.lo[i] = isnan(lo) ? -INFINITY : nextafterf(float_below(lo), -INFINITY);
-        out.hi[i] = isnan(hi) ? INFINITY : nextafterf(float_above(hi), INFINITY);
+        float lo = float_below(vec3_at(b->lo, i)), hi = float_above(vec3_at(b->hi, i));
+        out.lo[i] = lo > -INFINITY ? float_down(lo) : -INFINITY;       /* NaN too */
+        out.hi[i] = hi < INFINITY ? float_up(hi) : INFINITY;
     }
     return out;
 }
@@ -79,43 +83,34 @@ typedef struct Split {
     float cost;
 } Split;
 
-static int bin_of(const Split *s, const Box *b)
+typedef struct Bins {
+    Box box[N_BINS];
+    uint32_t n[N_BINS];
+} Bins;
+
+static int bin_of(float lo, float scale, float middle)
 {
-    float at = (box_middle(b, s->axis) - s->lo) * s->scale;
-    int i = at > 0 ? (int)fminf(at, N_BINS - 1) : 0;
-    return i;
+    float at = (middle - lo) * scale;
+    return at > 0 ? (int)(at < N_BINS - 1 ? at : N_BINS - 1) : 0;
 }
 
-/* The best plane on one axis, if better than *best. */
-static void try_axis(const Builder *k, const Range *r, int axis, float lo, float hi, Split *best)
+/* The best plane between bins, if better than *best. */
+static void try_bins(const Bins *bins, uint32_t n, Split s, Split *best)
 {
-    Split s = { .axis = axis, .lo = lo, .scale = N_BINS / (hi - lo) };
-    if (!(hi > lo) || !isfinite(s.scale))
-        return;
-    Box box[N_BINS];
-    uint32_t n[N_BINS] = { 0 };
-    for (int i = 0; i < N_BINS; i++)
-        box[i] = box_none();
-    for (uint32_t i = r->first; i < r->first + r->n; i++) {
-        const Box *b = &k->box[k->item[i]];
-        int bin = bin_of(&s, b);
-        n[bin]++;
-        box_add(&box[bin], b);
-    }
     float right_area[N_BINS];
     Box side = box_none();
     for (int i = N_BINS - 1; i > 0; i--) {
-        box_add(&side, &box[i]);
+        box_add(&side, &bins->box[i]);
         right_area[i] = box_area(&side);
     }
     side = box_none();
     uint32_t left = 0;
     for (int i = 1; i < N_BINS; i++) {
-        box_add(&side, &box[i - 1]);
-        left += n[i - 1];
-        if (left == 0 || left == r->n)
+        box_add(&side, &bins->box[i - 1]);
+        left += bins->n[i - 1];
+        if (left == 0 || left == n)
             continue;
-        float cost = box_area(&side) * (float)left + right_area[i] * (float)(r->n - left);
+        float cost = box_area(&side) * (float)left + right_area[i] * (float)(n - left);
         if (cost < best->cost) {
             s.bin = i;
             s.cost = cost;
@@ -126,16 +121,28 @@ static void try_axis(const Builder *k, const Range *r, int axis, float lo, float
 
 static Split find_split(const Builder *k, const Range *r)
 {
-    Split best = { .axis = -1, .cost = INFINITY };
-    float lo[3] = { INFINITY, INFINITY, INFINITY }, hi[3] = { -INFINITY, -INFINITY, -INFINITY };
-    for (uint32_t i = r->first; i < r->first + r->n; i++)
-        for (int axis = 0; axis < 3; axis++) {
-            float m = box_middle(&k->box[k->item[i]], axis);
-            lo[axis] = m < lo[axis] ? m : lo[axis];
-            hi[axis] = m > hi[axis] ? m : hi[axis];
+    Bins bins[3];
+    Split s[3], best = { .axis = -1, .cost = INFINITY };
+    for (int axis = 0; axis < 3; axis++) {
+        float lo = r->middles.lo[axis], size = r->middles.hi[axis] - lo, scale = N_BINS / size;
+        bool flat = !(size > 0) || !isfinite(scale);
+        s[axis] = (Split){ .axis = flat ? -1 : axis, .lo = lo, .scale = flat ? 0 : scale };
+        for (int i = 0; i < N_BINS; i++) {
+            bins[axis].box[i] = box_none();
+            bins[axis].n[i] = 0;
         }
+    }
+    for (uint32_t i = r->first; i < r->first + r->n; i++) {
+        const Box *b = &k->item[i].box;
+        for (int axis = 0; axis < 3; axis++) {
+            int bin = bin_of(s[axis].lo, s[axis].scale, box_middle(b, axis));
+            bins[axis].n[bin]++;
+            box_add(&bins[axis].box[bin], b);
+        }
+    }
     for (int axis = 0; axis < 3; axis++)
-        try_axis(k, r, axis, lo[axis], hi[axis], &best);
+        if (s[axis].axis >= 0)
+            try_bins(&bins[axis], r->n, s[axis], &best);
     return best;
 }
 
@@ -144,10 +151,10 @@ static uint32_t partition(const Builder *k, const Range *r, const Split *s)
 {
     uint32_t i = r->first, j = r->first + r->n;
     while (i < j)
-        if (bin_of(s, &k->box[k->item[i]]) < s->bin)
+        if (bin_of(s->lo, s->scale, box_middle(&k->item[i].box, s->axis)) < s->bin)
             i++;
         else {
-            uint32_t item = k->item[i];
+            Item item = k->item[i];
             k->item[i] = k->item[--j];
             k->item[j] = item;
         }
@@ -156,9 +163,15 @@ static uint32_t partition(const Builder *k, const Range *r, const Split *s)
 
 static Range range_of(const Builder *k, uint32_t first, uint32_t n)
 {
-    Range r = { .first = first, .n = n, .box = box_none(), .whole = n == 1 };
-    for (uint32_t i = first; i < first + n; i++)
-        box_add(&r.box, &k->box[k->item[i]]);
+    Range r = { .first = first, .n = n, .box = box_none(), .middles = box_none(), .whole = n == 1 };
+    for (uint32_t i = first; i < first + n; i++) {
+        const Box *b = &k->item[i].box;
+        box_add(&r.box, b);
+        Box m;
+        for (int axis = 0; axis < 3; axis++)
+            m.lo[axis] = m.hi[axis] = box_middle(b, axis);
+        box_add(&r.middles, &m);
+    }
     return r;
 }
 
@@ -241,14 +254,14 @@ static void *build(Arena *a, const Bounds *boxes, uint32_t n)
     b->item = arena_array(a, uint32_t, n);
     b->n_items = n;
     b->isa = cpu_isa();
-    Box *box = arena_array(&scratch, Box, n);
-    for (uint32_t i = 0; i < n; i++) {
-        box[i] = box_outward(&boxes[i]);
-        b->item[i] = i;
-    }
-    Builder k = { .bvh = b, .arena = &scratch, .box = box, .item = b->item };
+    Item *item = arena_array(&scratch, Item, n);
+    for (uint32_t i = 0; i < n; i++)
+        item[i] = (Item){ box_outward(&boxes[i]), i };
+    Builder k = { .bvh = b, .arena = &scratch, .item = item };
     build_node(&k, node_new(&k), range_of(&k, 0, n), 0);
     b->node = arena_copy(a, b->node, b->n_nodes * sizeof *b->node);
+    for (uint32_t i = 0; i < n; i++)
+        b->item[i] = item[i].index;
     arena_free(&scratch);
     return b;
 }

@@ -3,6 +3,7 @@
 #define ACCEL_BVH_H
 
 #include <float.h>
+#include <string.h>
 
 #include "base/cpu.h"
 #include "world/world.h"
@@ -29,17 +30,37 @@ typedef struct Bvh {
     CpuIsa isa;
 } Bvh;
 
+/* The next float towards zero (away from it) in size; for 0 itself see below. */
+static inline float float_step(float f, int by)
+{
+    int32_t bits;
+    memcpy(&bits, &f, sizeof bits);
+    bits += by;
+    memcpy(&f, &bits, sizeof f);
+    return f;
+}
+
+static inline float float_down(float f)        /* f > -INFINITY */
+{
+    return f == 0 ? -0x1p-149f : float_step(f, f > 0 ? -1 : 1);
+}
+
+static inline float float_up(float f)          /* f < INFINITY */
+{
+    return f == 0 ? 0x1p-149f : float_step(f, f > 0 ? 1 : -1);
+}
+
 /* The largest float <= x, the smallest >= x; infinities and NaN stay. */
 static inline float float_below(double x)
 {
     float f = (float)x;
-    return (double)f > x ? nextafterf(f, -INFINITY) : f;
+    return (double)f > x ? float_down(f) : f;
 }
 
 static inline float float_above(double x)
 {
     float f = (float)x;
-    return (double)f < x ? nextafterf(f, INFINITY) : f;
+    return (double)f < x ? float_up(f) : f;
 }
 
 typedef bool BvhWalk(const Bvh *b, const Ray *ray, double *t_max, AccelVisit *visit, void *user);

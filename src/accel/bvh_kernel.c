@@ -73,7 +73,8 @@ bool ISA_NAME(bvh_walk)(const Bvh *b, const Ray *ray, double *t_max, AccelVisit 
     Visit stack[BVH_STACK];
     float near[BVH_WIDTH];
     BoxRay r = box_ray(ray);
-    float t_min = float_below(ray->t_min), limit = float_above(*t_max);
+    double best = *t_max;
+    float t_min = float_below(ray->t_min), limit = float_above(best);
     uint32_t n = 1;
     stack[0] = (Visit){ t_min, 0, 0 };
     while (n > 0) {
@@ -88,7 +89,10 @@ bool ISA_NAME(bvh_walk)(const Bvh *b, const Ray *ray, double *t_max, AccelVisit 
         for (uint32_t i = 0; i < v.count; i++)
             if (visit(user, b->item[v.child + i], t_max))
                 return true;
-        limit = float_above(*t_max);
+        if (*t_max < best) {
+            best = *t_max;
+            limit = float_above(best);
+        }
     }
     return false;
 }
