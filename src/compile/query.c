@@ -152,7 +152,7 @@ static Bounds extent_in_all(Query *q, const Object *o, const Affine *around)
     if (e->item == NO_ITEM || is_node(e->item))
         return b;
     Bounds box = { scaled(w->box[e->item].lo, 1 / w->unit), scaled(w->box[e->item].hi, 1 / w->unit) };
-    return as_stored(bounds_intersection(b, bounds_transformed(box, around)));
+    return bounds_intersection(b, bounds_transformed(box, around));
 }
 
 static Bounds extent_of_intersection(Query *q, const Object *o, const Affine *place)

@@ -63,12 +63,13 @@ static bool nappe(const Cone *c, Vec3 o, Vec3 d, double end_in, double end_out, 
         *out = root[1];
     } else if (qa < 0) {
         double first = n == 2 ? root[0] : -qh / qa, last = n == 2 ? root[1] : first;
-        if (end_in <= first && first < end_out)
-            *out = first;                      /* enters by an end, leaves by the side */
-        else if (end_out >= last && last > end_in)
-            *in = last;
-        else if (end_in >= first && end_out <= last)
+        double before = first - end_in, after = end_out - last;
+        if (before < 0 && after < 0)
             return false;                      /* passes between the nappes */
+        if (before >= after)
+            *out = first;                      /* enters by an end, leaves by the side */
+        else
+            *in = last;
     } else if (n == 1) {                       /* parallel to the side */
         if (qh > 0)
             *out = root[0];

@@ -144,13 +144,15 @@ static void surface(const void *shape, const Hit *hit, Surface *out)
 static Bounds extent(const void *params, const Affine *place)
 {
     const Params *polygon = params;
-    Bounds box = bounds_of_points(polygon->point, polygon->n);
+    Bounds box = bounds_empty();
+    for (uint32_t i = 0; i < polygon->n; i++)
+        box = bounds_include(box, affine_point(place, polygon->point[i]));
     for (int i = 0; i < 3; i++)
         if (vec3_at(box.hi, i) - vec3_at(box.lo, i) < 0.001) {
             vec3_set(&box.lo, i, vec3_at(box.lo, i) - 0.001);
             vec3_set(&box.hi, i, vec3_at(box.hi, i) + 0.001);
         }
-    return bounds_transformed(box, place);
+    return box;
 }
 
 const ShapeOps shape_polygon = {

@@ -84,7 +84,10 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     const Quadric *q = shape;
     double shift = shape_nearest_t(ray), root[2];
     Vec3 o = ray_at(ray, shift), md = times(q, ray->d);
-    int n = roots_quadratic(dot(ray->d, md), dot(o, md) + 0.5 * dot(q->linear, ray->d), value(q, o), root);
+    double a = dot(ray->d, md);
+    int n = roots_quadratic(a, dot(o, md) + 0.5 * dot(q->linear, ray->d), value(q, o), root);
+    if (n == 1 && a != 0)
+        return;                                /* POV: a touch is no hit */
     for (int i = 0; i < n; i++)
         hit_add(sink, shift + root[i], 0);
 }
@@ -111,6 +114,6 @@ static Bounds extent(const void *params, const Affine *place)
 }
 
 const ShapeOps shape_quadric = {
-    .keyword = "quadric", .params_size = sizeof(Params), .flags = SHAPE_NORMAL_STAYS, .parse = parse, .compile = compile,
+    .keyword = "quadric", .params_size = sizeof(Params), .flags = SHAPE_NORMAL_STAYS | SHAPE_BOUND_STAYS, .parse = parse, .compile = compile,
     .hits = hits, .inside = inside, .surface = surface, .extent = extent,
 };

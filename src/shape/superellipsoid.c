@@ -91,15 +91,20 @@ static bool turning_point(const Super *s, Vec3 o, Vec3 d, double a, double b, bo
     return false;
 }
 
-static void search(const Super *s, Vec3 o, Vec3 d, double a, double b, double shift, double len, HitSink *sink)
+/* Neighbouring pieces are given the same signs where they meet, so that no root falls between them. */
+static void search(const Super *s, Vec3 o, Vec3 d, const double end[2], const bool above[2], double shift, double len,
+                   HitSink *sink)
 {
-    double in = a + 1e-12 * (b - a), out = b - 1e-12 * (b - a), turn;      /* slopes on this side of the planes */
-    Sample fa = sample(s, o, d, in), fb = sample(s, o, d, out);
-    if ((fa.f > 0) != (fb.f > 0))
-        hit_add(sink, shift + closed_in(s, o, d, a, b, fa.f > 0) / len, 0);
-    else if ((fa.slope < 0) == (fa.f > 0) && (fb.slope < 0) != (fb.f > 0) && turning_point(s, o, d, a, b, fa.f > 0, &turn)) {
-        hit_add(sink, shift + closed_in(s, o, d, a, turn, fa.f > 0) / len, 0);
-        hit_add(sink, shift + closed_in(s, o, d, turn, b, fa.f <= 0) / len, 0);
+    double a = end[0], b = end[1], turn;
+    if (above[0] != above[1]) {
+        hit_add(sink, shift + closed_in(s, o, d, a, b, above[0]) / len, 0);
+        return;
+    }
+    double step = 1e-12 * (b - a);             /* slopes are those on this side of the planes */
+    bool leaving = (sample(s, o, d, a + step).slope > 0) == above[0], coming = (sample(s, o, d, b - step).slope > 0) == above[0];
+    if (!leaving && coming && turning_point(s, o, d, a, b, above[0], &turn)) {
+        hit_add(sink, shift + closed_in(s, o, d, a, turn, above[0]) / len, 0);
+        hit_add(sink, shift + closed_in(s, o, d, turn, b, !above[0]) / len, 0);
     }
 }
 
@@ -144,9 +149,12 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
         cut[at] = t;
     }
     cut[++n] = last;
-    for (int i = 0; i < n; i++)
-        if (cut[i + 1] - cut[i] > 4 * DBL_EPSILON)
-            search(s, o, d, cut[i], cut[i + 1], shift, len, sink);
+    bool above[2] = { true, true };            /* of the surface: at the ends of the cube */
+    for (int i = 0; i < n; i++) {
+        above[1] = i + 1 == n || sample(s, o, d, cut[i + 1]).f > 0;
+        search(s, o, d, &cut[i], above, shift, len, sink);
+        above[0] = above[1];
+    }
 }
 
 static bool inside(const void *shape, Vec3 p)

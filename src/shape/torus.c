@@ -59,7 +59,14 @@ static bool reach(const Torus *t, Vec3 o, Vec3 u, double *in, double *out)
     return *in < *out;
 }
 
-/* One Newton step on the distance from the ring, which keeps the digits that the quartic of a thin torus loses. */
+/* The signed radius of the ring as seen from a point of the surface: a spindle's inner sheet belongs to its far side. */
+static double ring_at(const Torus *t, double rho, double y)
+{
+    double near = rho - t->major, far = rho + t->major, r2 = t->minor * t->minor - y * y;
+    return fabs(near * near - r2) <= fabs(far * far - r2) ? t->major : -t->major;
+}
+
+/* Newton's steps on the distance from the ring, which keeps the digits that the quartic of a thin torus loses. */
 static double polished(const Torus *t, Vec3 o, Vec3 u, double s)
 {
     for (int i = 0; i < 2; i++) {
@@ -67,7 +74,7 @@ static double polished(const Torus *t, Vec3 o, Vec3 u, double s)
         double rho = sqrt(p.x * p.x + p.z * p.z);
         if (rho == 0)
             return s;
-        double off = rho - t->major, f = off * off + p.y * p.y - t->minor * t->minor;
+        double off = rho - ring_at(t, rho, p.y), f = off * off + p.y * p.y - t->minor * t->minor;
         double slope = 2 * (off * (p.x * u.x + p.z * u.z) / rho + p.y * u.y), step = f / slope;
         if (!(fabs(step) < 1e-4 * t->minor))
             return s;
@@ -103,10 +110,14 @@ static void surface(const void *shape, const Hit *hit, Surface *out)
     (void)hit;
     const Torus *t = shape;
     Vec3 p = out->p;
-    double rho = sqrt(p.x * p.x + p.z * p.z), f = rho > 0 ? t->major / rho : 0;
-    Vec3 ring = vec3(p.x * f, 0, p.z * f);
-    out->normal = normalized(sub(p, ring));
-    out->p = add(ring, scaled(out->normal, t->minor));
+    double rho = sqrt(p.x * p.x + p.z * p.z);
+    if (rho > 0) {
+        double f = t->major / rho, ring = ring_at(t, rho, p.y) / rho;
+        Vec3 centre = vec3(p.x * ring, 0, p.z * ring);
+        out->p = add(centre, scaled(normalized(sub(p, centre)), t->minor));
+        out->normal = vec3(p.x - p.x * f, p.y, p.z - p.z * f);     /* POV: also on the inner sheet */
+    } else
+        out->normal = vec3(0, p.y, 0);
     if (out->want_uv)
         out->uv = (Vec2){ 1 - (atan2(p.z, p.x) + PI) / (2 * PI), (atan2(p.y, rho - t->major) + PI) / (2 * PI) };
 }
