@@ -4,10 +4,10 @@
 #include <stddef.h>
 
 #define SHAPES(ROW) \
-    ROW(blob) ROW(lathe) ROW(ovus) ROW(prism) ROW(sor) ROW(sphere_sweep) \
-    ROW(box) ROW(cone) ROW(cylinder) ROW(disc) ROW(plane) ROW(smooth_triangle) ROW(sphere) ROW(torus) \
-    ROW(triangle) ROW(mesh) ROW(mesh2) ROW(quadric) ROW(cubic) ROW(quartic) ROW(poly) \
-    ROW(polynomial) ROW(polygon) ROW(bicubic_patch) ROW(superellipsoid)
+    ROW(blob) ROW(lathe) ROW(ovus) ROW(prism) ROW(sor) ROW(sphere_sweep) ROW(box) ROW(cone) ROW(cylinder) \
+    ROW(disc) ROW(plane) ROW(smooth_triangle) ROW(sphere) ROW(torus) ROW(triangle) ROW(mesh) ROW(mesh2) \
+    ROW(quadric) ROW(cubic) ROW(quartic) ROW(poly) ROW(polynomial) ROW(polygon) ROW(bicubic_patch) \
+    ROW(superellipsoid)
 
 #define PATTERNS(ROW) \
     ROW(bozo) ROW(spotted) ROW(bumps) ROW(dents) ROW(granite) ROW(wrinkles) ROW(agate) ROW(marble) \
@@ -15,7 +15,7 @@
     ROW(planar) ROW(spherical) ROW(cylindrical) ROW(boxed) ROW(onion) ROW(radial) ROW(leopard) \
     ROW(image_pattern) ROW(pigment_pattern) ROW(object) ROW(spiral1) ROW(spiral2) ROW(ripples) ROW(waves) \
     ROW(quilted) ROW(crackle) ROW(cells) ROW(mandel) ROW(julia) ROW(magnet) ROW(density_file) ROW(slope) \
-    ROW(aoi) ROW(tiling) ROW(pavement)
+    ROW(aoi) ROW(tiling) ROW(pavement) ROW(function)
 
 #define DECLARE_SHAPE(name) extern const ShapeOps shape_##name;
 #define DECLARE_PATTERN(name) extern const PatternOps pattern_##name;

@@ -121,7 +121,7 @@ static Colour host_pigment(void *user, const Pigment *pigment, Vec3 p)
 static double host_pattern(void *user, const Pattern *pattern, Vec3 p)
 {
     (void)user;
-    return pattern_value(pattern, p, NULL);
+    return pattern_value(pattern, pattern_point(pattern, p), NULL);
 }
 
 static const Str *strings(Arena *a, const char *const *list, size_t n)
