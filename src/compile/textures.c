@@ -69,6 +69,8 @@ static bool pruned_same(const Compile *c, uint32_t i, const void *key)
 /* The texture without what cannot show; the same for every mention of it. */
 static const Texture *pruned(Compile *c, const Texture *t)
 {
+    if (t->kind == TEXTURE_PLAIN && t->below == NULL && t->normal == NULL && t->pigment->kind == PIGMENT_PLAIN)
+        return t;                              /* nothing to take away */
     uint32_t *slot = table_find(c, &c->pruned, hash_bytes(&t, sizeof t), &t, pruned_same, pruned_hash);
     if (*slot == 0) {
         array_push(c->arena, &c->pruned_key, t);

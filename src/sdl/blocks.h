@@ -10,7 +10,7 @@
 #include "sdl/block.h"
 #include "sdl/host.h"
 
-enum { TEXTURE_CACHE = 1024, FINISH_CACHE = 64 };          /* entries, powers of two */
+enum { TEXTURE_CACHE = 1024, FINISH_CACHE = 64, PIECE = 64 };      /* entries; the first two powers of two */
 
 typedef struct Material {
     const Texture *texture, *interior_texture;
@@ -33,6 +33,9 @@ typedef struct Blocks {
     ARRAY(const Media *) media;
     ARRAY(Pattern *) scene_noise;              /* to be told the noise generator that the scene ends with */
     struct ImageSeen *images;
+    Pigment *free_pigment;                     /* plain pigments and textures are cut from pieces of many: ... */
+    Texture *free_texture;
+    uint32_t n_free_pigments, n_free_textures; /* ... the arena would round each up to 128 bytes */
     const Pigment *pigment_cache[TEXTURE_CACHE];           /* plain colours, by their bits */
     const Texture *texture_cache[TEXTURE_CACHE];           /* plain textures, by their parts */
     const Finish *finish_cache[FINISH_CACHE];
@@ -91,6 +94,7 @@ extern const Normal NORMAL_EMPTY;              /* flat */
 extern const Finish FINISH_DEFAULT;
 
 const Pigment *pigment_body(Parser *p, const Pigment *base, PatternUse use);       /* of a pigment or a density */
+const Pigment *pigment_of_colour(Parser *p, Colour c, Loc loc);
 const Normal *normal_body(Parser *p, const Normal *base);  /* base may be NULL */
 bool normal_is_unfinished(const Normal *n);    /* no pattern was ever written */
 const Finish *finish_block(Parser *p, const Finish *base); /* at the brace */

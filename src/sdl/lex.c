@@ -277,6 +277,59 @@ static inline const char *fast_blank(Lexer *l, const char *s)
     return s;
 }
 
+/* n literals with commas between them and a '>' behind the last. */
+static bool fast_numbers(Lexer *l, const char **at, int n, double *out)
+{
+    const char *s = *at;
+    for (int i = 0; i < n; i++) {
+        s = fast_blank(l, s);
+        bool negative = s < l->end && *s == '-';
+        s += negative;
+        if (s >= l->end || !(class_at(s) == C_DIGIT || (*s == '.' && s + 1 < l->end && class_at(s + 1) == C_DIGIT)))
+            return false;
+        double v = 0;
+        if (!number_scan(&s, l->end, &v))
+            return false;
+        out[i] = negative ? -v : v;
+        s = fast_blank(l, s);
+        if (s >= l->end || *s != (i < n - 1 ? ',' : '>'))
+            return false;
+        s++;
+    }
+    *at = s;
+    return true;
+}
+
+/* Exactly this word, or exactly this mark, after blanks; NULL if something else comes. */
+static const char *fast_word(Lexer *l, const char *s, const char *word, size_t n)
+{
+    s = fast_blank(l, s);
+    if ((size_t)(l->end - s) <= n || memcmp(s, word, n) != 0 || class_at(s + n) == C_LETTER || class_at(s + n) == C_DIGIT)
+        return NULL;
+    return s + n;
+}
+
+static const char *fast_mark(Lexer *l, const char *s, char mark)
+{
+    s = fast_blank(l, s);
+    return s < l->end && *s == mark ? s + 1 : NULL;
+}
+
+/* Behind `rgb`, `rgbf`, `rgbt` or `rgbft`, with a `color` before it or not. */
+static const char *fast_rgb(Lexer *l, const char *s, bool *filter, bool *transmit)
+{
+    const char *color = fast_word(l, s, "color", 5);
+    s = fast_blank(l, color ? color : s);
+    if (l->end - s < 6 || memcmp(s, "rgb", 3) != 0)
+        return NULL;
+    s += 3;
+    *filter = *s == 'f';
+    s += *filter;
+    *transmit = *s == 't';
+    s += *transmit;
+    return class_at(s) == C_LETTER || class_at(s) == C_DIGIT ? NULL : s;
+}
+
 bool lex_vector_literal(Lexer *lexer, bool inside, double out[3])
 {
     Lexer l = *lexer;                          /* given up without a trace when anything is unusual */
@@ -287,27 +340,33 @@ bool lex_vector_literal(Lexer *lexer, bool inside, double out[3])
             return false;
         s++;
     }
-    for (int i = 0; i < 3; i++) {
-        s = fast_blank(&l, s);
-        bool negative = s < l.end && *s == '-';
-        s += negative;
-        if (s >= l.end || !(class_at(s) == C_DIGIT || (*s == '.' && s + 1 < l.end && class_at(s + 1) == C_DIGIT)))
-            return false;
-        double v = 0;
-        if (!number_scan(&s, l.end, &v))
-            return false;
-        out[i] = negative ? -v : v;
-        s = fast_blank(&l, s);
-        if (s >= l.end || *s != (i < 2 ? ',' : '>'))
-            return false;
-        s++;
-    }
+    if (!fast_numbers(&l, &s, 3, out))
+        return false;
     l.at = s;
     s = fast_blank(&l, s);
     /* What may follow without going on with the expression. A letter may be a macro: not here. */
     if (s >= l.end || !(*s == ',' || *s == '}' || *s == '<' || *s == ')' || class_at(s) == C_DIGIT))
         return false;
     /* `<1,2,3> <4` compares only where a full expression is asked for, and that never comes this way. */
+    l.at = s;
+    *lexer = l;
+    return true;
+}
+
+bool lex_pigment_literal(Lexer *lexer, bool texture, Colour *out)
+{
+    Lexer l = *lexer;
+    const char *s = fast_mark(&l, l.at, '{');
+    bool filter, transmit;
+    double v[5];
+    if (s && texture && (s = fast_word(&l, s, "pigment", 7)))
+        s = fast_mark(&l, s, '{');
+    if (!s || !(s = fast_rgb(&l, s, &filter, &transmit)) || !(s = fast_mark(&l, s, '<'))
+        || !fast_numbers(&l, &s, 3 + filter + transmit, v) || !(s = fast_mark(&l, s, '}')))
+        return false;
+    if (texture && !(s = fast_mark(&l, s, '}')))
+        return false;
+    *out = (Colour){ (float)v[0], (float)v[1], (float)v[2], filter ? (float)v[3] : 0, transmit ? (float)v[3 + filter] : 0 };
     l.at = s;
     *lexer = l;
     return true;

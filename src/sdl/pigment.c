@@ -118,10 +118,27 @@ static bool same_colour(const Pigment *a, const Pigment *b)
 static const Pigment *plain_pigment(Parser *p, const Pigment *g)
 {
     Blocks *b = parse_blocks(p);
-    uint32_t h = str_hash((Str){ (const char *)&g->colour, sizeof g->colour }) % TEXTURE_CACHE;
-    if (b->pigment_cache[h] == NULL || !same_colour(b->pigment_cache[h], g))
-        b->pigment_cache[h] = arena_copy(parse_arena(p), g, sizeof *g);
-    return b->pigment_cache[h];
+    uint32_t bits[5], h = 0;
+    memcpy(bits, &g->colour, sizeof bits);
+    for (int i = 0; i < 5; i++)
+        h = (h ^ bits[i]) * 0x9e3779b1u;
+    h = (h >> 16) % TEXTURE_CACHE;
+    if (b->pigment_cache[h] != NULL && same_colour(b->pigment_cache[h], g))
+        return b->pigment_cache[h];
+    if (b->n_free_pigments == 0) {
+        b->free_pigment = arena_array(parse_arena(p), Pigment, PIECE);
+        b->n_free_pigments = PIECE;
+    }
+    Pigment *kept = &b->free_pigment[--b->n_free_pigments];
+    *kept = *g;
+    b->pigment_cache[h] = kept;
+    return kept;
+}
+
+const Pigment *pigment_of_colour(Parser *p, Colour c, Loc loc)
+{
+    Pigment g = { .kind = PIGMENT_PLAIN, .has_colour = true, .colour = c, .loc = loc };
+    return plain_pigment(p, &g);
 }
 
 static const Pigment *close_body(Parser *p, Pigment *g, PatternDraft *d, const Pigment *base)

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "sdl/parser.h"
+
 static const Pattern PATTERN_PLAIN = { .frequency = 1, .wave_exponent = 1, .noise_generator = 2 };
 
 /* Plain single layers by their parts; the newest stays. */
@@ -10,12 +12,20 @@ static const Texture *keep(Parser *p, const Texture *t)
 {
     if (t->kind != TEXTURE_PLAIN || t->below != NULL || t->no_bump_scale)
         return arena_copy(parse_arena(p), t, sizeof *t);
-    const void *part[3] = { t->pigment, t->normal, t->finish };
-    uint32_t h = str_hash((Str){ (const char *)part, sizeof part }) % TEXTURE_CACHE;
-    const Texture **slot = &parse_blocks(p)->texture_cache[h];
-    if (*slot == NULL || (*slot)->pigment != t->pigment || (*slot)->normal != t->normal || (*slot)->finish != t->finish)
-        *slot = arena_copy(parse_arena(p), t, sizeof *t);
-    return *slot;
+    uint64_t h = ((uint64_t)(uintptr_t)t->pigment ^ (uint64_t)(uintptr_t)t->normal << 7 ^ (uint64_t)(uintptr_t)t->finish << 13);
+    h = (h * 0x9e3779b97f4a7c15u >> 32) % TEXTURE_CACHE;
+    Blocks *b = parse_blocks(p);
+    const Texture **slot = &b->texture_cache[h];
+    if (*slot != NULL && (*slot)->pigment == t->pigment && (*slot)->normal == t->normal && (*slot)->finish == t->finish)
+        return *slot;
+    if (b->n_free_textures == 0) {
+        b->free_texture = arena_array(parse_arena(p), Texture, PIECE);
+        b->n_free_textures = PIECE;
+    }
+    Texture *kept = &b->free_texture[--b->n_free_textures];
+    *kept = *t;
+    *slot = kept;
+    return kept;
 }
 
 static Texture moved_layer(Parser *p, const Texture *from, const Moves *moves)
@@ -86,6 +96,18 @@ const Texture *texture_with(Parser *p, const Texture *from, const Pigment *pigme
     return keep(p, &t);
 }
 
+/* The commonest texture of all, straight from the characters: `pigment { rgb <1,0,0> }`, or `texture { pigment {...} }` around
+ * it. `keyword` has been taken. Nothing is taken if anything else stands there. */
+static const Pigment *literal(Parser *p, const Texture *top, int keyword)
+{
+    Reader *r = &p->reader[p->n_readers - 1];
+    Colour c;
+    if (keyword == KW_FINISH || keyword == KW_NORMAL || p->have || !r->is_file || top->kind != TEXTURE_PLAIN || top->pigment->has_quick)
+        return NULL;
+    Loc loc = p->token.loc;
+    return lex_pigment_literal(&r->lexer, keyword == KW_TEXTURE, &c) ? pigment_of_colour(p, c, loc) : NULL;
+}
+
 const Texture *texture_part(Parser *p, const Texture *top)
 {
     if (top->kind != TEXTURE_PLAIN)
@@ -95,7 +117,10 @@ const Texture *texture_part(Parser *p, const Texture *top)
     const Finish *finish = top->finish;
     int keyword = parse_peek(p);
     parse_skip(p);
-    if (keyword == KW_FINISH) {
+    const Pigment *known = literal(p, top, keyword);
+    if (known != NULL) {
+        pigment = known;
+    } else if (keyword == KW_FINISH) {
         finish = finish_block(p, finish);
     } else {
         block_open(p, keyword == KW_PIGMENT ? "pigment" : "normal");
@@ -316,6 +341,10 @@ const Texture *parse_texture(Parser *p)
 {
     if (!parse_accept(p, KW_TEXTURE))
         parse_expect(p, KW_INTERIOR_TEXTURE);
+    const Texture *standard = parse_blocks(p)->default_texture;
+    const Pigment *known = literal(p, standard, KW_TEXTURE);
+    if (known != NULL)
+        return texture_with(p, standard, known, standard->normal, standard->finish);
     block_open(p, "texture");
     const Texture *t = texture_body(p);
     block_close(p, "texture");

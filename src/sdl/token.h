@@ -42,6 +42,9 @@ void lex_next(Parser *p, Lexer *l, Token *out);
 /* `<a, b, c>` of plain literals, with nothing behind it that could go on with the expression: takes it, or takes nothing.
  * inside: the `<` has been taken already. */
 bool lex_vector_literal(Lexer *l, bool inside, double out[3]);
+/* `{ rgb <a,b,c> }` behind `pigment`, or `{ pigment { rgb <a,b,c> } }` behind `texture`; rgbf, rgbt, rgbft and a `color` before
+ * them too. Takes it whole or takes nothing. */
+bool lex_pigment_literal(Lexer *l, bool texture, Colour *out);
 /* Skips blanks and comments; true if the character after them is `c`, which is taken. */
 bool lex_accept(Parser *p, Lexer *l, char c);
 int lex_peek_char(Parser *p, Lexer *l);        /* the next character that counts, not taken; -1 at the end */

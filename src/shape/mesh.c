@@ -97,6 +97,19 @@ static bool is_closed(const MeshParams *m)
     return sum == 0;
 }
 
+/* Only what some face has: a list may be longer. 0 is no texture yet. */
+static const uint32_t *used_textures(ShapeBuild *b, const MeshParams *m)
+{
+    uint32_t *texture = build_data(b, m->n_textures * sizeof *texture);
+    for (uint32_t i = 0; m->face_texture != NULL && i < m->n_faces; i++)
+        for (int k = 0; k < 3; k++) {
+            uint32_t t = m->face_texture[i].v[k];
+            if (t != MESH_NONE && texture[t] == 0)
+                texture[t] = build_texture(b, m->texture[t], NULL);
+        }
+    return texture;
+}
+
 void mesh_compile(ShapeBuild *b, const void *params)
 {
     const MeshParams *m = params;
@@ -105,10 +118,7 @@ void mesh_compile(ShapeBuild *b, const void *params)
     Mesh *out = build_data(b, sizeof *out);
     *out = (Mesh){ .m = m, .ops = b->accel, .accel = hierarchy(b, m), .inward = m->inside_vector };
     if (m->n_textures > 0) {
-        uint32_t *texture = build_data(b, m->n_textures * sizeof *texture);
-        for (uint32_t i = 0; i < m->n_textures; i++)
-            texture[i] = build_texture(b, m->texture[i], NULL);
-        out->texture = texture;
+        out->texture = used_textures(b, m);
     }
     /* POV: the vector stays as written when the mesh is turned. It makes a difference only when there are holes. */
     if (max_abs(out->inward) > 0 && !is_closed(m)) {
