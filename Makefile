@@ -18,10 +18,9 @@ ifeq ($(SAN),1)
   LDFLAGS += -fsanitize=address,undefined
 endif
 
-# Optional libraries: found by pkg-config, or by a header where there is no .pc file. The build works without them, and
+# Optional libraries: found by pkg-config. The build works without them, and
 # the program says what is missing when a scene asks for it.
 have = $(shell pkg-config --exists $(1) 2>/dev/null && echo 1)
-has_header = $(shell echo '\#include <stdio.h>\n\#include <$(1)>' | $(CC) -E - >/dev/null 2>&1 && echo 1)
 define optional
 ifeq ($$(call have,$(2)),1)
   FEATURES += -DHAVE_$(1) $$(shell pkg-config --cflags $(2))
@@ -33,10 +32,6 @@ $(eval $(call optional,JPEG,libjpeg))
 $(eval $(call optional,TIFF,libtiff-4))
 $(eval $(call optional,FREETYPE,freetype2))
 $(eval $(call optional,FONTCONFIG,fontconfig))
-ifeq ($(call has_header,gif_lib.h),1)
-  FEATURES += -DHAVE_GIF
-  LIBS += -lgif
-endif
 
 # *_kernel.c is built once per instruction set, each object exporting names with the set pasted on (base/cpu.h).
 ARCH    := $(shell $(CC) -dumpmachine | cut -d- -f1)

@@ -21,7 +21,7 @@ typedef struct ImageCodec {
     bool (*write)(FILE *to, const Codes *codes, char error[IMAGE_ERROR]);      /* NULL: read only */
 } ImageCodec;
 
-extern const ImageCodec codec_png, codec_jpeg, codec_gif, codec_tiff, codec_tga, codec_ppm, codec_bmp, codec_hdr;
+extern const ImageCodec codec_png, codec_jpeg, codec_gif, codec_pot, codec_tiff, codec_tga, codec_ppm, codec_bmp, codec_hdr;
 
 /* Always false, to be returned. */
 bool codec_fail(char error[IMAGE_ERROR], const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -1,4 +1,7 @@
-/* gif.c - the first picture of a GIF: a palette and its own LZW decoder, so that no library is needed. */
+/* gif.c - the first picture of a GIF: a palette and its own LZW decoder, so that no library is needed.
+ *
+ * POT files, the 16-bit potentials of Fractint, are GIFs twice as wide: upper bytes in the left half, lower ones in the right. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "image/codec.h"
@@ -170,4 +173,45 @@ static bool read_image(Str bytes, Image *im, void *pixels, char error[IMAGE_ERRO
     return decode(&r, &canvas, error);
 }
 
+/* Both halves of a row become one row of 16-bit numbers, of the same size. */
+static bool join_halves(const Image *im, void *pixels)
+{
+    size_t width = (size_t)im->width;
+    uint8_t *row = malloc(2 * width);
+    if (row == NULL)
+        return false;
+    for (int y = 0; y < im->height; y++) {
+        uint8_t *from = (uint8_t *)pixels + (size_t)y * 2 * width;
+        memcpy(row, from, 2 * width);
+        for (size_t x = 0; x < width; x++) {
+            uint16_t v = (uint16_t)(row[x] << 8 | row[width + x]);
+            memcpy(from + 2 * x, &v, 2);
+        }
+    }
+    free(row);
+    return true;
+}
+
+static bool read_pot(Str bytes, Image *im, void *pixels, char error[IMAGE_ERROR])
+{
+    Image gif = { 0 };
+    if (!read_image(bytes, &gif, pixels, error))
+        return false;
+    if (gif.width % 2 != 0)
+        return codec_fail(error, "a POT file has an even number of columns, this one has %d", gif.width);
+    im->width = gif.width / 2;
+    im->height = gif.height;
+    im->channels = 1;
+    im->depth = IMAGE_U16;
+    im->max_value = 65535;
+    return pixels == NULL || join_halves(im, pixels) || codec_fail(error, "not enough memory");
+}
+
+static bool never(Str bytes)
+{
+    (void)bytes;                               /* by name only: its bytes are a GIF's */
+    return false;
+}
+
+const ImageCodec codec_pot = { IMAGE_POT, never, read_pot, NULL };
 const ImageCodec codec_gif = { IMAGE_GIF, probe, read_image, NULL };

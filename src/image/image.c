@@ -13,7 +13,7 @@
 
 /* TGA has no mark of its own, so it is asked last. */
 static const ImageCodec *const codecs[] = {
-    &codec_png, &codec_jpeg, &codec_gif, &codec_tiff, &codec_bmp, &codec_ppm, &codec_hdr, &codec_tga
+    &codec_png, &codec_jpeg, &codec_gif, &codec_pot, &codec_tiff, &codec_bmp, &codec_ppm, &codec_hdr, &codec_tga
 };
 
 bool codec_fail(char error[IMAGE_ERROR], const char *format, ...)

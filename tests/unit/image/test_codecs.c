@@ -233,6 +233,20 @@ static void interlaced_gif_rows_are_put_in_order(void **state)
     arena_free(&a);
 }
 
+static void the_halves_of_a_pot_are_upper_and_lower_bytes(void **state)
+{
+    (void)state;
+    /* two pixels wide, numbers 1 and 2: codes 4 1 2 5 */
+    static const unsigned char gif[] = { 'G', 'I', 'F', '8', '7', 'a', 2, 0, 1, 0, 0x81, 0, 0, 0, 0, 0, 9, 9, 9, 9, 9, 9, 9, 9, 9,
+                                         ',', 0, 0, 0, 0, 2, 0, 1, 0, 0, 2, 2, 0x8c, 0x0a, 0, ';' };
+    Arena a;
+    arena_init(&a);
+    Image *im = read_bytes(&a, gif, sizeof gif, IMAGE_POT);
+    assert_int_equal(im->width, 1);
+    assert_int_equal(*(const uint16_t *)im->pixels, 0x0102);
+    arena_free(&a);
+}
+
 static void hdr_pixels_have_a_shared_exponent_and_runs(void **state)
 {
     (void)state;
@@ -408,6 +422,7 @@ int main(void)
         cmocka_unit_test(a_text_bitmap_and_a_comment_are_read),
         cmocka_unit_test(tga_colours_of_16_bits_and_palettes_are_read),
         cmocka_unit_test(interlaced_gif_rows_are_put_in_order),
+        cmocka_unit_test(the_halves_of_a_pot_are_upper_and_lower_bytes),
         cmocka_unit_test(hdr_pixels_have_a_shared_exponent_and_runs),
         cmocka_unit_test(a_run_length_coded_bmp_is_read),
 #ifdef HAVE_TIFF
