@@ -90,14 +90,14 @@ static double closed_in(const double *b, int n)
             slope = slope * u + f;
             f = f * u + a[k];
         }
-        if (f == 0)
+        if (f == 0 && u > 0 && u < 1)          /* at an end a zero is no change of sign */
             return u;
         if ((f < 0) == rising)
             lo = u;
         else
             hi = u;
         double next = u - f / slope;
-        if (!(next >= lo && next <= hi) || fabs(next - u) > 0.5 * last)
+        if (f == 0 || !(next >= lo && next <= hi) || fabs(next - u) > 0.5 * last)
             next = 0.5 * (lo + hi);            /* Newton leaves the bracket or dawdles: halve it */
         last = fabs(next - u);
         if (last <= DBL_EPSILON * fabs(u) || last < 1e-300)

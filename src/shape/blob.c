@@ -536,7 +536,16 @@ static void surface(const void *shape, const Hit *hit, Surface *out)
         out->texture[i].weight = (float)(out->texture[i].weight / sum);
 }
 
-/* POV: a ball around each component of positive strength; a transformed one by the longest edge of a box. */
+/* POV: a box around each ball, as long each way as the longest edge of the box [0, r]^3 in the component's frame. */
+static Bounds ball_extent(Vec3 centre, double r, const Affine *place)
+{
+    Vec3 x = affine_vector(place, vec3(1, 0, 0)), y = affine_vector(place, vec3(0, 1, 0)), z = affine_vector(place, vec3(0, 0, 1));
+    double most = 0;
+    for (int axis = 0; axis < 3; axis++)
+        most = fmax(most, fabs(vec3_at(x, axis)) + fabs(vec3_at(y, axis)) + fabs(vec3_at(z, axis)));
+    return bounds_grown((Bounds){ centre, centre }, r * most);
+}
+
 static Bounds extent(const void *params, const Affine *place)
 {
     const Params *from = params;
@@ -545,15 +554,18 @@ static Bounds extent(const void *params, const Affine *place)
         const Component *c = &from->component.data[i];
         if (!(c->strength > 0))
             continue;
-        Vec3 centre = c->cylinder ? lerp(c->a, c->b, 0.5) : c->a;
-        double r = fabs(c->radius) + (c->cylinder ? 0.5 * length(sub(c->b, c->a)) : 0);
-        if (!c->place.identity) {
-            Bounds edge = bounds_transformed((Bounds){ vec3(0, 0, 0), vec3(r, r, r) }, &c->place);
-            Vec3 d = sub(edge.hi, edge.lo);
-            r = max_abs(d);
-            centre = affine_point(&c->place, centre);
+        double r = fabs(c->radius);
+        Vec3 first = affine_point(&c->place, c->a), last = affine_point(&c->place, c->b);
+        if (!c->cylinder) {
+            b = bounds_union(b, ball_extent(first, r, &c->place));
+            continue;
         }
-        b = bounds_union(b, bounds_grown((Bounds){ centre, centre }, r));
+        Vec3 axis = sub(c->b, c->a);
+        double half = 0.5 * length(axis);
+        Affine turned = affine_then(affine_frame(c->a, axis, 1, 1), c->place);
+        b = bounds_union(b, ball_extent(first, r, &turned));
+        b = bounds_union(b, ball_extent(last, r, &turned));
+        b = bounds_union(b, ball_extent(lerp(first, last, 0.5), sqrt(half * half + r * r), &turned));
     }
     return bounds_transformed(b, place);
 }

@@ -10,7 +10,7 @@
 #include "shape/shape.h"
 
 typedef struct { Curve curve; CurveKind kind; } Params;
-typedef struct { Curve curve; double most, y0, y1; } Lathe;
+typedef struct { Curve curve; double least, most, y0, y1; } Lathe;     /* radii, heights */
 
 /* Below this |uy| a root of the polynomial cannot be told from its twin. */
 static const double LEVEL = 1e-7;
@@ -54,9 +54,10 @@ static void parse(Parser *p, void *params)
         l->curve.piece[k] = curve_spline_piece(l->kind, &v[k * (uint32_t)step]);
 }
 
-/* The largest distance from the axis and the heights, of the curve or, as POV-Ray bounds a bezier, of its control points. */
-static void measure(const Curve *c, bool hull, double *most, double *y0, double *y1)
+/* The least and the largest distance from the axis and the heights, of the curve or, as POV-Ray bounds a bezier, of its control points. */
+static void measure(const Curve *c, bool hull, double *least, double *most, double *y0, double *y1)
 {
+    *least = INFINITY;
     *most = 0;
     *y0 = INFINITY;
     *y1 = -INFINITY;
@@ -64,6 +65,7 @@ static void measure(const Curve *c, bool hull, double *most, double *y0, double 
         Vec2 lo = c->piece[k].lo, hi = c->piece[k].hi;
         if (!hull)
             curve_extent(&c->piece[k], &lo, &hi);
+        *least = fmin(*least, lo.u);
         *most = fmax(*most, fmax(fabs(lo.u), fabs(hi.u)));
         *y0 = fmin(*y0, lo.v);
         *y1 = fmax(*y1, hi.v);
@@ -73,12 +75,12 @@ static void measure(const Curve *c, bool hull, double *most, double *y0, double 
 static void compile(ShapeBuild *b, const void *params)
 {
     const Params *l = params;
-    double most, y0, y1;
-    measure(&l->curve, false, &most, &y0, &y1);
+    double least, most, y0, y1;
+    measure(&l->curve, false, &least, &most, &y0, &y1);
     double unit = shape_unit(b, fmax(most, fmax(fabs(y0), fabs(y1))));
     Lathe *out = build_data(b, sizeof *out);
     out->curve = curve_scaled(b->arena, l->curve, 1 / unit);
-    measure(&out->curve, false, &out->most, &out->y0, &out->y1);
+    measure(&out->curve, false, &out->least, &out->most, &out->y0, &out->y1);
     Affine place = build_place(b, unit);
     build_prim(b, out, &place, shape_padded((Bounds){ vec3(-out->most, out->y0, -out->most), vec3(out->most, out->y1, out->most) }));
 }
@@ -189,10 +191,12 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     }
 }
 
+/* POV: a core as wide as the curve is near to the axis anywhere counts as outside at every height. */
 static bool inside(const void *shape, Vec3 p)
 {
     const Lathe *a = shape;
-    return curve_inside(&a->curve, sqrt(p.x * p.x + p.z * p.z), p.y);
+    double rho = sqrt(p.x * p.x + p.z * p.z);
+    return rho >= a->least && curve_inside(&a->curve, rho, p.y);
 }
 
 static void surface(const void *shape, const Hit *hit, Surface *out)
@@ -209,8 +213,8 @@ static void surface(const void *shape, const Hit *hit, Surface *out)
 static Bounds extent(const void *params, const Affine *place)
 {
     const Params *l = params;
-    double most, y0, y1;
-    measure(&l->curve, l->kind == CURVE_BEZIER, &most, &y0, &y1);
+    double least, most, y0, y1;
+    measure(&l->curve, l->kind == CURVE_BEZIER, &least, &most, &y0, &y1);
     return bounds_transformed((Bounds){ vec3(-most, y0, -most), vec3(most, y1, most) }, place);
 }
 

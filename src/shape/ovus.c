@@ -190,6 +190,10 @@ static void surface(const void *shape, const Hit *hit, Surface *out)
 static Bounds extent(const void *params, const Affine *place)
 {
     Ovus o = measures(params);
+    double k;
+    Vec3 c = affine_point(place, vec3(0, o.bottom, 0));
+    if (is_ball(&o) && shape_keeps_balls(place, &k))
+        return bounds_grown((Bounds){ c, c }, k * o.top);
     return bounds_transformed(box_of(&o), place);
 }
 

@@ -8,7 +8,7 @@
 #include "shape/curve.h"
 #include "shape/shape.h"
 
-typedef struct { Curve curve; double h1, h2; bool conic; } Params;
+typedef struct { Curve curve; double h1, h2; bool conic, bezier; } Params;
 
 typedef struct {
     Curve curve;                               /* conic: without unit, as the heights carry it */
@@ -50,7 +50,7 @@ static void linear_contours(Parser *p, const Vec2 *v, int n, Pieces *out)
 static bool spline_contours(Parser *p, CurveKind kind, const Vec2 *v, int n, Pieces *out)
 {
     int behind = kind == CURVE_CUBIC;
-    for (int first = 0; first < n;) {
+    for (int first = 0; first + 2 < n;) {      /* POV: a point or two left over say nothing */
         int last = first + 2;
         while (last < n && !same(v[last], v[first + 1]))
             last++;
@@ -116,6 +116,7 @@ static void parse(Parser *p, void *params)
     double h1 = parse_float(p), h2 = parse_next_float(p);
     parse_comma(p);
     int n = parse_int(p), least = kinds[kind].least;
+    a->bezier = kind == CURVE_BEZIER;
     a->h1 = fmin(h1, h2);
     a->h2 = fmax(h1, h2);
     if (n < least)
@@ -155,12 +156,14 @@ static Bounds swept(Vec2 lo, Vec2 hi, double h1, double h2, bool conic)
     return bounds_of_points(corners, 4);
 }
 
-static Bounds box_of(const Curve *c, double h1, double h2, bool conic)
+/* `hull`: of the control points, as POV-Ray bounds beziers. */
+static Bounds box_of(const Curve *c, double h1, double h2, bool conic, bool hull)
 {
     Bounds b = bounds_empty();
     for (uint32_t i = 0; i < c->n; i++) {
-        Vec2 lo, hi;
-        curve_extent(&c->piece[i], &lo, &hi);
+        Vec2 lo = c->piece[i].lo, hi = c->piece[i].hi;
+        if (!hull)
+            curve_extent(&c->piece[i], &lo, &hi);
         b = bounds_union(b, swept(lo, hi, h1, h2, conic));
     }
     return b;
@@ -171,7 +174,7 @@ static void compile(ShapeBuild *b, const void *params)
     const Params *a = params;
     if (a->curve.n == 0)
         return;
-    Bounds box = box_of(&a->curve, a->h1, a->h2, a->conic);
+    Bounds box = box_of(&a->curve, a->h1, a->h2, a->conic, false);
     double unit = shape_unit(b, fmax(max_abs(box.lo), max_abs(box.hi)));
     Prism *out = build_data(b, sizeof *out);
     *out = (Prism){ .curve = curve_scaled(b->arena, a->curve, a->conic ? 1 : 1 / unit), .h1 = a->h1 / unit, .h2 = a->h2 / unit,
@@ -184,7 +187,7 @@ static void compile(ShapeBuild *b, const void *params)
         out->accel = b->accel->build(b->arena, boxes, out->curve.n);
     }
     Affine place = build_place(b, unit);
-    build_prim(b, out, &place, shape_padded(box_of(&out->curve, out->h1, out->h2, out->conic)));
+    build_prim(b, out, &place, shape_padded(box_of(&out->curve, out->h1, out->h2, out->conic, false)));
 }
 
 /* The ray from its point nearest to the middle of the shape, direction of unit length. */
@@ -275,7 +278,7 @@ static void surface(const void *shape, const Hit *hit, Surface *out)
 static Bounds extent(const void *params, const Affine *place)
 {
     const Params *a = params;
-    return bounds_transformed(box_of(&a->curve, a->h1, a->h2, a->conic), place);
+    return bounds_transformed(box_of(&a->curve, a->h1, a->h2, a->conic, a->bezier), place);
 }
 
 const ShapeOps shape_prism = {

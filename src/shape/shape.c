@@ -18,6 +18,15 @@ Bounds shape_hull(Bounds local, const Affine *frame, const Affine *place)
     return bounds_transformed(local, &all);
 }
 
+bool shape_keeps_balls(const Affine *place, double *by)
+{
+    Vec3 x = affine_vector(place, vec3(1, 0, 0)), y = affine_vector(place, vec3(0, 1, 0)), z = affine_vector(place, vec3(0, 0, 1));
+    double k2 = length2(x), even = 1e-12 * k2;
+    *by = sqrt(k2);
+    return fabs(length2(y) - k2) < even && fabs(length2(z) - k2) < even && fabs(dot(x, y)) < even && fabs(dot(y, z)) < even &&
+           fabs(dot(z, x)) < even;
+}
+
 double shape_longitude(double x, double z)
 {
     double a = atan2(z, x) / (2 * PI);

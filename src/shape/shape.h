@@ -38,6 +38,9 @@ double shape_algebraic_unit(const double *by_degree, int n);
 /* POV: the hull of a box in a frame, as extents report it. */
 Bounds shape_hull(Bounds local, const Affine *frame, const Affine *place);
 
+/* Does `place` take balls to balls? Their radii are then multiplied by *by. */
+bool shape_keeps_balls(const Affine *place, double *by);
+
 /* (08-shapes 8): 0..1 around y from x through z. */
 double shape_longitude(double x, double z);
 

@@ -61,12 +61,10 @@ static void surface(const void *shape, const Hit *hit, Surface *out)
 static Bounds extent(const void *params, const Affine *place)
 {
     const Params *s = params;
-    Vec3 x = affine_vector(place, vec3(1, 0, 0)), y = affine_vector(place, vec3(0, 1, 0)),
-         z = affine_vector(place, vec3(0, 0, 1));
-    double k2 = length2(x), even = 1e-12 * k2;
-    if (fabs(length2(y) - k2) < even && fabs(length2(z) - k2) < even && fabs(dot(x, y)) < even && fabs(dot(y, z)) < even &&
-        fabs(dot(z, x)) < even)
-        return bounds_grown((Bounds){ affine_point(place, s->centre), affine_point(place, s->centre) }, sqrt(k2) * s->radius);
+    double k;
+    Vec3 c = affine_point(place, s->centre);
+    if (shape_keeps_balls(place, &k))
+        return bounds_grown((Bounds){ c, c }, k * s->radius);
     return bounds_transformed(bounds_grown((Bounds){ s->centre, s->centre }, s->radius), place);
 }
 

@@ -8,7 +8,6 @@
  * needed. Where POV-Ray counts the inside of several overlapping balls as outside (08-shapes, section 17), this does not.
  * Parts: pieces; u: the time of the ball that is touched. */
 #include "math/bernstein.h"
-#include "math/roots.h"
 #include "sdl/parse.h"
 #include "shape/shape.h"
 
@@ -215,17 +214,23 @@ static void linear_spans(Line *l, uint32_t k)
 {
     const Piece *p = &l->sweep->piece[k];
     Vec3 v = sub(p->ball[0].centre, l->o), e = sub(p->ball[1].centre, p->ball[0].centre);
-    double along = dot(e, l->u), r = p->ball[0].radius, q = p->ball[1].radius - r, w[2];
+    double along = dot(e, l->u), r = p->ball[0].radius, q = p->ball[1].radius - r;
     v = sub(v, scaled(l->u, dot(v, l->u)));
     e = sub(e, scaled(l->u, along));
-    double a = q * q - length2(e), h = r * q - dot(v, e), c = r * r - length2(v), f = along * along - a;
+    /* h(w) = a w^2 + 2 b w + c; s-+ is least and greatest where a w + b = -+ along sqrt((b^2 - a c) / f). */
+    double a = q * q - length2(e), b = r * q - dot(v, e), c = r * r - length2(v), f = along * along - a;
     Span x = { INFINITY, -INFINITY, 0, 0, k, k };
     widen(l, p, 0, &x);
     widen(l, p, 1, &x);
-    int n = roots_quadratic(f * a, f * h, along * along * c - h * h, w);
-    for (int i = 0; i < n; i++)
-        if (w[i] > 0 && w[i] < 1)
-            widen(l, p, w[i], &x);
+    if (f > 0) {                               /* else one ball holds the other */
+        double turn = fabs(along) * sqrt(fmax(0, b * b - a * c) / f);
+        for (int sign = -1; sign <= 1; sign += 2) {
+            double g = sign * turn;
+            double w = g * b > 0 ? (b * b - along * along * c) / (f * (g + b)) : (g - b) / a;
+            if (w > 0 && w < 1)
+                widen(l, p, w, &x);
+        }
+    }
     if (x.s0 <= x.s1)
         join(l, x);
 }
@@ -252,7 +257,7 @@ static void half_chord(const Line *l, const Piece *p, double h[7])
 static void cubic_spans(Line *l, uint32_t k)
 {
     const Piece *p = &l->sweep->piece[k];
-    double h[7], dh[6], db[3], left[11], right[11], b2[5], zero[8], turn[10];
+    double h[7], dh[6], db[3], left[11], right[11], b2[5], zero[8], turn[15];
     half_chord(l, p, h);
     int n = 1, turns = 0;
     zero[0] = 0;
@@ -270,6 +275,8 @@ static void cubic_spans(Line *l, uint32_t k)
     for (int i = 0; i <= 10; i++)
         left[i] = 4 * left[i] - right[i];
     turns = bernstein_roots(left, 10, turn);
+    /* Across the path the least and the greatest fall together where h is greatest, and are not found as two. */
+    turns += bernstein_roots(dh, 5, turn + turns);
     bool outside = h[0] < 0;
     for (int i = 0; i < n; i++, outside = !outside) {
         if (outside)
@@ -374,16 +381,19 @@ static void surface(const void *shape, const Hit *hit, Surface *out)
     out->p = add(ball.centre, scaled(out->normal, fabs(ball.radius)));
 }
 
-/* POV: centres and radii as written, cubic splines with twice the radius. */
+/* POV: cubic splines with twice the radius; transforms that keep balls round move the balls, others the box. */
 static Bounds extent(const void *params, const Affine *place)
 {
     const Params *s = params;
+    double k;
+    bool round = shape_keeps_balls(place, &k);
     Bounds b = bounds_empty();
     for (uint32_t i = 0; i < s->n; i++) {
-        double r = fabs(s->ball[i].radius) * (s->kind == CUBIC ? 2 : 1);
-        b = bounds_union(b, bounds_grown((Bounds){ s->ball[i].centre, s->ball[i].centre }, r));
+        double r = fabs(s->ball[i].radius) * (s->kind == CUBIC ? 2 : 1) * (round ? k : 1);
+        Vec3 c = round ? affine_point(place, s->ball[i].centre) : s->ball[i].centre;
+        b = bounds_union(b, bounds_grown((Bounds){ c, c }, r));
     }
-    return bounds_transformed(b, place);
+    return round ? b : bounds_transformed(b, place);
 }
 
 const ShapeOps shape_sphere_sweep = {

@@ -84,6 +84,16 @@ static void the_number_of_roots_is_odd_if_the_ends_differ(void **state)
     }
 }
 
+static void a_zero_at_an_end_hides_no_root(void **state)
+{
+    (void)state;
+    const double b[7] = { -0.72, -0.48, -0.24266666666666672, -0.07275, -0.0071666666666666337, 0.0083333333333333592, 0 };
+    double found[BERNSTEIN_MAX];
+    assert_int_equal(bernstein_roots(b, 6, found), 1);
+    assert_true(fabs(bernstein_value(b, 6, found[0])) < 1e-15);
+    assert_true(found[0] < 0.99);
+}
+
 static void products_and_slopes_are_those_of_values(void **state)
 {
     (void)state;
@@ -106,6 +116,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(known_roots_are_found),
         cmocka_unit_test(the_number_of_roots_is_odd_if_the_ends_differ),
+        cmocka_unit_test(a_zero_at_an_end_hides_no_root),
         cmocka_unit_test(products_and_slopes_are_those_of_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
