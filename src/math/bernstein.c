@@ -83,21 +83,22 @@ static double closed_in(const double *b, int n)
     for (int k = 1; k <= n; k++)
         a[k] *= choose[n][k];
     bool rising = b[0] < 0;
-    double u = b[0] / (b[0] - b[n]), last = 1;
+    /* Not from an end: a zero there is no change of sign, and the power form rounds it to anything. */
+    double u = fmin(0.9, fmax(0.1, b[0] / (b[0] - b[n]))), last = 1;
     for (int i = 0; i < 80; i++) {
         double f = a[n], slope = 0;
         for (int k = n - 1; k >= 0; k--) {
             slope = slope * u + f;
             f = f * u + a[k];
         }
-        if (f == 0 && u > 0 && u < 1)          /* at an end a zero is no change of sign */
+        if (f == 0)
             return u;
         if ((f < 0) == rising)
             lo = u;
         else
             hi = u;
         double next = u - f / slope;
-        if (f == 0 || !(next >= lo && next <= hi) || fabs(next - u) > 0.5 * last)
+        if (!(next >= lo && next <= hi) || fabs(next - u) > 0.5 * last)
             next = 0.5 * (lo + hi);            /* Newton leaves the bracket or dawdles: halve it */
         last = fabs(next - u);
         if (last <= DBL_EPSILON * fabs(u) || last < 1e-300)
