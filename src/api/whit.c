@@ -183,7 +183,7 @@ static void read_scene(Whit *w, void *with)
 {
     const Reading *r = with;
     SdlHost host = { .registry = &registry, .user = w->query, .trace = query_trace, .inside = query_inside,
-                     .extent = query_extent, .pigment = host_pigment, .pattern = host_pattern };
+                     .extent = query_extent, .world = query_world, .pigment = host_pigment, .pattern = host_pattern };
     SdlOptions options = sdl_options(w, r->path);
     sdl_parse(&w->arena, w->diag, &host, &options, r->path, r->text, &w->scene);
     tell_unmodelled(w);

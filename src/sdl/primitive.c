@@ -6,9 +6,13 @@
 
 Arena *parse_arena(Parser *p) { return p->arena; }
 const Registry *parse_registry(const Parser *p) { return p->host->registry; }
-const struct World *parse_world_of(Parser *p, const Object *o, uint32_t *item) { return p->host->world(p->host->user, o, item); }
 Diag *parse_diag(Parser *p) { return p->diag; }
 int parse_version(const Parser *p) { return p->version; }
+
+const struct World *parse_world_of(Parser *p, const Object *o, uint32_t *item)
+{
+    return p->host->world != NULL ? p->host->world(p->host->user, o, item) : NULL;
+}
 
 Loc parse_loc(Parser *p)
 {

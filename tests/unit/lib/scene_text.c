@@ -41,11 +41,11 @@ bool scene_text(SceneText *s, const char *text)
     s->query = query_new(&s->arena, &registry, s->diag);
     if (setjmp(*diag_landing(s->diag)) != 0)
         return false;
-    static const Str path[] = { { "/usr/share/povray-3.7/include", 29 } };
+    static const Str path[] = { { "/usr/share/povray-3.7/include", 29 }, { "tests/vectors/inputs", 20 } };
     SdlHost host = { .registry = &registry, .user = s->query, .trace = query_trace, .inside = query_inside,
-                     .extent = query_extent, .pigment = host_pigment, .pattern = host_pattern };
+                     .extent = query_extent, .world = query_world, .pigment = host_pigment, .pattern = host_pattern };
     SdlOptions options = { .width = 160, .height = 120, .version = 370, .input_name = str_of("test"), .library_path = path,
-                           .n_library_paths = 1 };
+                           .n_library_paths = 2 };
     sdl_parse(&s->arena, s->diag, &host, &options, str_of("test.pov"), str_of(text), &s->scene);
     compile_world(&s->world, &s->scene, &registry, s->accel, s->diag);
     return true;

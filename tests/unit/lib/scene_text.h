@@ -1,4 +1,4 @@
-/* scene_text.h - a scene from its text to its World, for tests that ask rays. */
+/* scene_text.h - a scene from its text to its World, for tests that ask rays. Images are found in tests/vectors/inputs. */
 #ifndef LIB_SCENE_TEXT_H
 #define LIB_SCENE_TEXT_H
 
