@@ -18,9 +18,8 @@ static Vec3 repeat(const Warp *w, Vec3 p)
     x -= (double)(float)(block * width);       /* POV: the product is single precision */
     vec3_set(&p, axis, x);
     if (fmod(fabs(block), 2) == 1) {
-        Vec3 flip = w->repeat.flip;
-        p = vec3(flip.x != 0 ? -p.x : p.x, flip.y != 0 ? -p.y : p.y, flip.z != 0 ? -p.z : p.z);
-        if (vec3_at(flip, axis) != 0)
+        p = mul(p, w->repeat.flip);
+        if (vec3_at(w->repeat.flip, axis) < 0)
             vec3_set(&p, axis, vec3_at(p, axis) + width);
     }
     return add(p, scaled(w->repeat.offset, block));

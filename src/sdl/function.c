@@ -402,6 +402,7 @@ static const Pattern *pattern_block(Parser *p)
     PatternDraft d;
     pattern_begin(&d, NULL);
     pattern_choose(p, &d, ops);
+    pattern_list_end(p, ops);
     while (pattern_modifier(p, &d))
         continue;
     const Pattern *pattern = pattern_close(p, &d);
