@@ -123,10 +123,9 @@ typedef struct ObjectDraft {
 void draft_begin(ObjectDraft *d, const Object *from);
 void draft_move(Parser *p, ObjectDraft *d, const Affine *move);    /* everything that the object carries so far */
 Object *draft_close(Parser *p, const ObjectDraft *d);
-void object_modifiers(Parser *p, ObjectDraft *d);          /* to the closing brace, which is taken */
+void object_modifiers(Parser *p, ObjectDraft *d, const char *word);        /* to the brace that closes `word` */
 const Object *object_moved(Parser *p, const Object *o, const Affine *move);
 bool object_is_patch(const Object *o);         /* has no inside */
-const char *object_word(const Object *o);
 bool scene_object(Parser *p);                  /* a statement of the scene, if the next token begins an object */
 Object *light_block(Parser *p);                /* at `light_source` */
 const PhotonsBlock *photons_block(Parser *p, const PhotonsBlock *base, bool light);        /* at the brace */

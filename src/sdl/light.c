@@ -60,7 +60,7 @@ static ObjectDraft attached(Parser *p, const Object *already, const char *word)
         parse_expected(p, "object");
     ObjectDraft d;
     draft_begin(&d, o);
-    object_modifiers(p, &d);
+    object_modifiers(p, &d, word);
     return d;
 }
 

@@ -4,15 +4,10 @@
  * same Affine, and one that began in this block is changed in place: an object costs one Affine, not one per word. */
 #include "sdl/blocks.h"
 
-static const char *const kind_word[] = {
-    [OBJECT_SHAPE] = "object", [OBJECT_UNION] = "union", [OBJECT_MERGE] = "merge", [OBJECT_INTERSECTION] = "intersection",
-    [OBJECT_DIFFERENCE] = "difference", [OBJECT_LIGHT] = "light_source", [OBJECT_LIGHT_GROUP] = "light_group",
+static const char *const kind_word[] = {       /* of what csg() reads */
+    [OBJECT_UNION] = "union", [OBJECT_MERGE] = "merge", [OBJECT_INTERSECTION] = "intersection",
+    [OBJECT_DIFFERENCE] = "difference", [OBJECT_LIGHT_GROUP] = "light_group",
 };
-
-const char *object_word(const Object *o)
-{
-    return o->kind == OBJECT_SHAPE && o->ops != NULL ? o->ops->keyword : kind_word[o->kind];
-}
 
 bool object_is_patch(const Object *o)
 {
@@ -345,8 +340,8 @@ static void complete(Parser *p, Object *o)
         o->importance = parse_blocks(p)->default_importance;
 }
 
-/* item, params: the shape's own further items; NULL when it is a copy of an identifier. */
-static void modifiers(Parser *p, ObjectDraft *d, const ShapeOps *own, void *params)
+/* To the brace that closes `word`. own, params: the shape's own further items; NULL when it is a copy of an identifier. */
+static void modifiers(Parser *p, ObjectDraft *d, const char *word, const ShapeOps *own, void *params)
 {
     Object *o = &d->o;
     for (;;) {
@@ -366,7 +361,7 @@ static void modifiers(Parser *p, ObjectDraft *d, const ShapeOps *own, void *para
     }
     if (own != NULL && own->finish != NULL)
         own->finish(p, params);
-    block_close(p, object_word(o));
+    block_close(p, word);
     complete(p, o);
 }
 
@@ -375,17 +370,17 @@ Object *draft_close(Parser *p, const ObjectDraft *d)
     return arena_copy(parse_arena(p), &d->o, sizeof d->o);
 }
 
-void object_modifiers(Parser *p, ObjectDraft *d)
+void object_modifiers(Parser *p, ObjectDraft *d, const char *word)
 {
-    modifiers(p, d, NULL, NULL);
+    modifiers(p, d, word, NULL, NULL);
 }
 
 /* `sphere { S ... }`: S may be any object. */
-static Object *copy_with_modifiers(Parser *p, const Object *from)
+static Object *copy_with_modifiers(Parser *p, const Object *from, const char *word)
 {
     ObjectDraft d;
     draft_begin(&d, from);
-    modifiers(p, &d, NULL, NULL);
+    modifiers(p, &d, word, NULL, NULL);
     return draft_close(p, &d);
 }
 
@@ -398,11 +393,11 @@ static Object *shape(Parser *p, const ShapeOps *ops)
     block_open(p, ops->keyword);
     const Object *known = parse_take_block(p, BLOCK_OBJECT);
     if (known != NULL)
-        return copy_with_modifiers(p, known);
+        return copy_with_modifiers(p, known, ops->keyword);
     void *params = arena_alloc(parse_arena(p), ops->params_size);
     ObjectDraft d = { .o = { .kind = OBJECT_SHAPE, .loc = loc, .ops = ops, .params = params } };
     ops->parse(p, params);
-    modifiers(p, &d, ops, params);
+    modifiers(p, &d, ops->keyword, ops, params);
     return draft_close(p, &d);
 }
 
@@ -413,7 +408,7 @@ static Object *csg(Parser *p, ObjectKind kind)
     block_open(p, kind_word[kind]);
     const Object *known = parse_take_block(p, BLOCK_OBJECT);
     if (known != NULL)
-        return copy_with_modifiers(p, known);
+        return copy_with_modifiers(p, known, kind_word[kind]);
     Objects list = { 0 };
     const Object *child;
     bool patch = false;
@@ -426,7 +421,7 @@ static Object *csg(Parser *p, ObjectKind kind)
     if (patch && (kind == OBJECT_INTERSECTION || kind == OBJECT_DIFFERENCE))
         parse_warn(p, "Patch objects not allowed in intersection.");
     ObjectDraft d = { .o = { .kind = kind, .loc = loc, .child = list.data, .n_child = list.n } };
-    modifiers(p, &d, NULL, NULL);
+    modifiers(p, &d, kind_word[kind], NULL, NULL);
     return draft_close(p, &d);
 }
 
@@ -437,7 +432,7 @@ static Object *object_block(Parser *p)
     const Object *o = parse_object(p);
     if (o == NULL)
         parse_expected(p, "object");
-    return copy_with_modifiers(p, o);
+    return copy_with_modifiers(p, o, "object");
 }
 
 /* *fresh: the result belongs to the caller alone; else it is an identifier's. */
