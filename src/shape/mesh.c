@@ -10,7 +10,8 @@
 typedef struct Mesh {
     const MeshParams *m;
     const AccelOps *ops;
-    const void *accel;
+    const void *accel;                         /* item i is faces run[i] to run[i + 1] - 1 */
+    const uint32_t *run;
     const uint32_t *texture;                   /* of build_texture, by index in the mesh */
     Vec3 inward;                               /* direction of inside tests; 0: no inside */
 } Mesh;
@@ -61,23 +62,57 @@ void mesh_ready(MeshParams *m)
 
 /* ---- compiling ---- */
 
-/* Of the faces, in the order of their numbers. Boxes serve the building only: they have an arena of their own. */
-static const void *hierarchy(ShapeBuild *b, const MeshParams *m)
+static Bounds face_box(const MeshParams *m, uint32_t i)
+{
+    Vec3 p[3];
+    for (int k = 0; k < 3; k++)
+        p[k] = to_vec3(m->vertex[m->face[i].v[k]]);
+    return bounds_of_points(p, 3);
+}
+
+/* Items of the hierarchy are runs of faces, as neighbours often follow each other in the lists: two triangles that fill one
+ * box cost nothing more in one item, and half the memory. A run grows while testing all of it, by the surface area
+ * heuristic, stays within this factor of testing its faces apart. */
+static const double RUN_COST = 1.25;
+enum { RUN_MAX = 4 };
+
+/* run[i] is where run i begins, run[n] the number of faces; returns n. */
+static uint32_t find_runs(const MeshParams *m, uint32_t *run)
+{
+    uint32_t n = 0, length_ = 0;
+    Bounds box = bounds_empty();
+    double apart = 0;
+    for (uint32_t i = 0; i < m->n_faces; i++) {
+        Bounds next = face_box(m, i), both = bounds_union(box, next);
+        double area = bounds_area(next);
+        bool joins = length_ > 0 && length_ < RUN_MAX && bounds_area(both) * (length_ + 1) <= RUN_COST * (apart + area);
+        if (!joins)
+            run[n++] = i;
+        length_ = joins ? length_ + 1 : 1;
+        box = joins ? both : next;
+        apart = joins ? apart + area : area;
+    }
+    run[n] = m->n_faces;
+    return n;
+}
+
+/* Boxes serve the building only: they have an arena of their own. */
+static void build_hierarchy(ShapeBuild *b, Mesh *mesh)
 {
     Arena own;
     arena_init(&own);
     own.out_of_memory = b->arena->out_of_memory;
     own.user = b->arena->user;
-    Bounds *box = arena_array(&own, Bounds, m->n_faces);
-    for (uint32_t i = 0; i < m->n_faces; i++) {
-        Vec3 p[3];
-        for (int k = 0; k < 3; k++)
-            p[k] = to_vec3(m->vertex[m->face[i].v[k]]);
-        box[i] = bounds_of_points(p, 3);
+    uint32_t *run = arena_array(&own, uint32_t, (size_t)mesh->m->n_faces + 1), n = find_runs(mesh->m, run);
+    Bounds *box = arena_array(&own, Bounds, n);
+    for (uint32_t i = 0; i < n; i++) {
+        box[i] = bounds_empty();
+        for (uint32_t face = run[i]; face < run[i + 1]; face++)
+            box[i] = bounds_union(box[i], face_box(mesh->m, face));
     }
-    const void *accel = b->accel->build(b->arena, box, m->n_faces);
+    mesh->run = arena_copy(b->arena, run, ((size_t)n + 1) * sizeof *run);
+    mesh->accel = b->accel->build(b->arena, box, n);
     arena_free(&own);
-    return accel;
 }
 
 /* Does every edge have another face that runs through it the other way? Sums of hashes answer: each edge adds for one
@@ -116,7 +151,8 @@ void mesh_compile(ShapeBuild *b, const void *params)
     if (m->n_faces == 0)
         return;
     Mesh *out = build_data(b, sizeof *out);
-    *out = (Mesh){ .m = m, .ops = b->accel, .accel = hierarchy(b, m), .inward = m->inside_vector };
+    *out = (Mesh){ .m = m, .ops = b->accel, .inward = m->inside_vector };
+    build_hierarchy(b, out);
     if (m->n_textures > 0) {
         out->texture = used_textures(b, m);
     }
@@ -142,20 +178,22 @@ Bounds mesh_extent(const void *params, const Affine *place)
 /* ---- tracing ---- */
 
 typedef struct Walk {
-    const MeshParams *m;
+    const Mesh *mesh;
     TriRay ray;
     HitSink *sink;
 } Walk;
 
-static bool visit(void *user, uint32_t i, double *t_max)
+static bool visit(void *user, uint32_t item, double *t_max)
 {
     Walk *w = user;
-    const Index3 *f = &w->m->face[i];
-    TriHit hit;
-    if (tri_hit(&w->ray, to_vec3(w->m->vertex[f->v[0]]), to_vec3(w->m->vertex[f->v[1]]), to_vec3(w->m->vertex[f->v[2]]),
-                &hit)) {
-        hit_add_uv(w->sink, hit.t, i, hit.u, hit.v);
-        *t_max = hit_limit(w->sink);
+    const Float3 *vertex = w->mesh->m->vertex;
+    for (uint32_t i = w->mesh->run[item]; i < w->mesh->run[item + 1]; i++) {
+        const uint32_t *f = w->mesh->m->face[i].v;
+        TriHit hit;
+        if (tri_hit(&w->ray, to_vec3(vertex[f[0]]), to_vec3(vertex[f[1]]), to_vec3(vertex[f[2]]), &hit)) {
+            hit_add_uv(w->sink, hit.t, i, hit.u, hit.v);
+            *t_max = hit_limit(w->sink);
+        }
     }
     return false;
 }
@@ -163,13 +201,13 @@ static bool visit(void *user, uint32_t i, double *t_max)
 void mesh_hits(const void *shape, const Ray *ray, HitSink *sink)
 {
     const Mesh *mesh = shape;
-    Walk w = { mesh->m, tri_ray(ray), sink };
+    Walk w = { mesh, tri_ray(ray), sink };
     double t_max = hit_limit(sink);
     mesh->ops->walk(mesh->accel, ray, &t_max, visit, &w);
 }
 
 typedef struct Parity {
-    const MeshParams *m;
+    const Mesh *mesh;
     TriRay ray;
     bool odd;
 } Parity;
@@ -180,14 +218,13 @@ static bool left_of(uint32_t a, uint32_t b, double edge)
     return edge != 0 ? edge > 0 : a < b;
 }
 
-static bool count(void *user, uint32_t i, double *t_max)
+static void count_face(Parity *c, uint32_t i)
 {
-    (void)t_max;
-    Parity *c = user;
-    const uint32_t *f = c->m->face[i].v;
+    const MeshParams *m = c->mesh->m;
+    const uint32_t *f = m->face[i].v;
     double x[3], y[3], z[3], sum = 0, depth = 0;
     for (int k = 0; k < 3; k++) {
-        Vec3 p = sub(to_vec3(c->m->vertex[f[k]]), c->ray.o);
+        Vec3 p = sub(to_vec3(m->vertex[f[k]]), c->ray.o);
         z[k] = vec3_at(p, c->ray.kz);
         x[k] = vec3_at(p, c->ray.kx) - c->ray.sx * z[k];
         y[k] = vec3_at(p, c->ray.ky) - c->ray.sy * z[k];
@@ -202,6 +239,14 @@ static bool count(void *user, uint32_t i, double *t_max)
     }
     if ((left == 0 || left == 3) && sum != 0 && c->ray.sz * depth / sum > 0)
         c->odd = !c->odd;
+}
+
+static bool count(void *user, uint32_t item, double *t_max)
+{
+    (void)t_max;
+    Parity *c = user;
+    for (uint32_t i = c->mesh->run[item]; i < c->mesh->run[item + 1]; i++)
+        count_face(c, i);
     return false;
 }
 
@@ -211,7 +256,7 @@ bool mesh_inside(const void *shape, Vec3 p)
     if (max_abs(mesh->inward) == 0)
         return false;
     Ray ray = { p, mesh->inward, 0, INFINITY };
-    Parity c = { mesh->m, tri_ray(&ray), false };
+    Parity c = { mesh, tri_ray(&ray), false };
     double t_max = INFINITY;
     mesh->ops->walk(mesh->accel, &ray, &t_max, count, &c);
     return c.odd;
