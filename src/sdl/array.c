@@ -6,7 +6,7 @@ enum { MAX_ITEMS = 1 << 28 };
 static int64_t whole(Parser *p)
 {
     double v = expr_float(p) + EPSILON;
-    return v >= -1e15 && v <= 1e15 ? (int64_t)v : -1;
+    return v >= 0 && v <= 1e15 ? (int64_t)v : -1;
 }
 
 /* The value is looked at again after each subscript: reading one may run directives that declare the array anew. */
@@ -68,7 +68,7 @@ static void initialise(Parser *p, ValueArray *a, uint32_t dimension, uint32_t *a
         parse_comma(p);
     }
     if (parse_peek(p) != TOK_CLOSE)
-        fail(p->diag, parse_loc(p), "No matching } in 'array', %s found instead", token_description(p));
+        fail(p->diag, parse_loc(p), "No matching } in '{', %s found instead", token_description(p));
     parse_close(p);
 }
 

@@ -61,7 +61,7 @@ static Vec3 vector(Parser *p)
 static double checked(Parser *p, Loc loc, bool fine, double v, const char *what)
 {
     if (!fine)
-        fail(p->diag, loc, "%s of negative number", what);
+        fail(p->diag, loc, "%s of negative number %f", what, v);
     return v;
 }
 
@@ -92,12 +92,12 @@ static bool of_one(Parser *p, int keyword, Num *out)
     case KW_EXP: v = exp(one(p)); break;
     case KW_FLOOR: v = floor(one(p)); break;
     case KW_INT: v = int32(one(p)); break;
-    case KW_LN: v = one(p); v = checked(p, loc, !(v <= 0), log(v), "ln"); break;
-    case KW_LOG: v = one(p); v = checked(p, loc, !(v <= 0), log10(v), "log"); break;
+    case KW_LN: v = one(p); v = log(checked(p, loc, !(v <= 0), v, "ln")); break;
+    case KW_LOG: v = one(p); v = log10(checked(p, loc, !(v <= 0), v, "log")); break;
     case KW_RADIANS: v = one(p) * DEGREE; break;
     case KW_SIN: v = sin(one(p)); break;
     case KW_SINH: v = sinh(one(p)); break;
-    case KW_SQRT: v = one(p); v = checked(p, loc, !(v < 0), sqrt(v), "sqrt"); break;
+    case KW_SQRT: v = one(p); v = sqrt(checked(p, loc, !(v < 0), v, "sqrt")); break;
     case KW_TAN: v = tan(one(p)); break;
     case KW_TANH: v = tanh(one(p)); break;
     default: return false;

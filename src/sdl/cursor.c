@@ -303,6 +303,9 @@ static const Capture *capture(Parser *p, Lexer *l, const Token *first)
     while (n_open) {
         Token t;
         lex_next(p, l, &t);
+        if (t.kind == TOK_END && p->n_includes > 1 && (first->directive == KW_WHILE || first->directive == KW_FOR))
+            fail(p->diag, first->loc, "#%s loop did not end in file where it started.",
+                 first->directive == KW_FOR ? "for" : "while");
         if (t.kind == TOK_END)
             fail(p->diag, first->loc, "End of file reached but #end expected.");
         uint32_t at = tokens.n;
@@ -557,12 +560,24 @@ static void run_switch(Parser *p, const Token *t)
     }
 }
 
+/* Does the conditional on top belong to what is being read? An #if may begin in a file and end in one it includes. */
+static Conditional *innermost(Parser *p)
+{
+    if (!p->n_conditionals)
+        return NULL;
+    Conditional *c = &p->conditional[p->n_conditionals - 1];
+    for (uint32_t i = c->reader; c->kind == COND_IF && i < p->n_readers; i++)
+        if (!p->reader[i].is_file && i != p->n_readers - 1)
+            return NULL;
+    return c->reader == p->n_readers - 1 || (c->kind == COND_IF && top(p)->is_file) ? c : NULL;
+}
+
 /* A branch ends where the next begins: #else, #elseif, #case, #range while something runs. */
 static void run_branch(Parser *p, const Token *t)
 {
     uint32_t at = cursor_here(p);
-    Conditional *c = p->n_conditionals ? &p->conditional[p->n_conditionals - 1] : NULL;
-    if (!c || c->reader != p->n_readers - 1 || (c->kind != COND_IF && c->kind != COND_SWITCH))
+    Conditional *c = innermost(p);
+    if (!c || (c->kind != COND_IF && c->kind != COND_SWITCH))
         fail(p->diag, t->loc, "Mis-matched '#%.*s'.", STR_ARGS(t->sym->text));
     if (c->kind == COND_SWITCH) {              /* no #break: falls through */
         if (t->directive == KW_CASE || t->directive == KW_RANGE)
@@ -660,8 +675,8 @@ static void run_for(Parser *p, const Token *t)
 
 static void run_end(Parser *p, const Token *t)
 {
-    Conditional *c = p->n_conditionals ? &p->conditional[p->n_conditionals - 1] : NULL;
-    if (!c || c->reader != p->n_readers - 1 || c->kind == COND_MACRO)
+    Conditional *c = innermost(p);
+    if (!c || c->kind == COND_MACRO)
         fail(p->diag, t->loc, "Mis-matched '#end'.");
     if (c->kind == COND_WHILE) {
         while_turn(p, c->start);

@@ -144,7 +144,7 @@ static void string(Parser *p, Lexer *l, Token *out)
     const char *s = l->at + 1, *start = s;
     for (;; s++) {
         if (s >= l->end)
-            fail(p->diag, out->loc, "Unterminated string literal.");
+            fail(p->diag, out->loc, "No end quote for string.");
         if (*s == '"')
             break;
         if (*s == '\\' && s + 1 < l->end) {
