@@ -138,13 +138,18 @@ static Bounds all_space(void)
     return (Bounds){ { -FAR, -FAR, -FAR }, { FAR, FAR, FAR } };
 }
 
-static Bounds extent_of(Query *q, const Object *o, const Affine *around);
+static Bounds extent_of(Query *q, const Object *o);
+
+static bool is_bare_light(const Object *o)
+{
+    return o->kind == OBJECT_LIGHT && o->light->looks_like == NULL;
+}
 
 /* POV: only boxes of what is not inverted cut; a plane cuts when its normal lies along an axis. Shapes that are unbounded alone
  * are asked for the box they are traced with. */
-static Bounds extent_in_all(Query *q, const Object *o, const Affine *around)
+static Bounds extent_in_all(Query *q, const Object *o)
 {
-    Bounds b = extent_of(q, o, around);
+    Bounds b = extent_of(q, o);
     if (o->kind != OBJECT_SHAPE || !is_far(b))
         return b;
     const Entry *e = entry_of(q, o);
@@ -152,55 +157,62 @@ static Bounds extent_in_all(Query *q, const Object *o, const Affine *around)
     if (e->item == NO_ITEM || is_node(e->item))
         return b;
     Bounds box = { scaled(w->box[e->item].lo, 1 / w->unit), scaled(w->box[e->item].hi, 1 / w->unit) };
-    return bounds_intersection(b, bounds_transformed(box, around));
+    return bounds_intersection(b, box);
 }
 
-static Bounds extent_of_intersection(Query *q, const Object *o, const Affine *place)
+static Bounds extent_of_intersection(Query *q, const Object *o)
 {
     Bounds all = all_space();
     for (uint32_t i = 0; i < o->n_child; i++) {
         const Object *child = o->child[i];
         bool inverted = ((child->flags & OBJECT_INVERSE) != 0) != (o->kind == OBJECT_DIFFERENCE && i > 0);
-        if (inverted || child->kind == OBJECT_LIGHT ||
-            (child->kind == OBJECT_SHAPE && (child->ops->flags & SHAPE_NO_BOX_IN_CSG) && child->ops->extent == NULL))
-            continue;
-        all = bounds_intersection(all, extent_in_all(q, child, place));
+        if (!inverted && !is_bare_light(child))
+            all = bounds_intersection(all, extent_in_all(q, child));
     }
-    return bounds_is_empty(all) || is_far(all) ? all_space() : as_stored(all);
+    return bounds_is_empty(all) || is_far(all) ? all_space() : all;
 }
 
-static Bounds cut_by(Query *q, Bounds b, const Object *const *list, uint32_t n, const Affine *around)
+static Bounds extent_of_union(Query *q, const Object *o)
+{
+    Bounds all = bounds_empty();
+    for (uint32_t i = 0; i < o->n_child; i++)
+        all = bounds_union(all, extent_of(q, o->child[i]));
+    return all;
+}
+
+static Bounds cut_by(Query *q, Bounds b, const Object *const *list, uint32_t n)
 {
     Bounds cut = all_space();
     for (uint32_t i = 0; i < n; i++)
         if (!(list[i]->flags & OBJECT_INVERSE))
-            cut = bounds_intersection(cut, extent_in_all(q, list[i], around));
-    return !bounds_is_empty(cut) && volume(cut) < volume(b) ? cut : b;
+            cut = bounds_intersection(cut, extent_in_all(q, list[i]));
+    return n > 0 && !bounds_is_empty(cut) && volume(cut) < volume(b) ? cut : b;
 }
 
-static Bounds extent_of(Query *q, const Object *o, const Affine *around)
+/* In the space around o. POV: each CSG hulls the boxes of its children and is hulled again when it is moved. */
+static Bounds extent_of(Query *q, const Object *o)
 {
-    Affine place = affine_then(affine_of(o->place), *around);
+    Affine place = affine_of(o->place);
     Bounds b;
-    if (o->kind == OBJECT_SHAPE)
-        b = as_stored(o->ops->extent != NULL ? o->ops->extent(o->params, &place) : bounds_everything());
-    else if (o->kind == OBJECT_LIGHT)
-        b = o->light->looks_like != NULL ? extent_of(q, o->light->looks_like, &place) : all_space();
-    else if (o->kind == OBJECT_INTERSECTION || o->kind == OBJECT_DIFFERENCE)
-        b = extent_of_intersection(q, o, &place);
-    else {
-        b = bounds_empty();
-        for (uint32_t i = 0; i < o->n_child; i++)
-            if (o->child[i]->kind != OBJECT_LIGHT || o->child[i]->light->looks_like != NULL)
-                b = bounds_union(b, extent_of(q, o->child[i], &place));
-        b = as_stored(b);
+    switch (o->kind) {
+    case OBJECT_SHAPE:
+        b = o->ops->extent != NULL ? o->ops->extent(o->params, &place) : bounds_everything();
+        break;
+    case OBJECT_LIGHT:
+        b = bounds_transformed(is_bare_light(o) ? all_space() : extent_of(q, o->light->looks_like), &place);
+        break;
+    case OBJECT_INTERSECTION: case OBJECT_DIFFERENCE:
+        b = bounds_transformed(extent_of_intersection(q, o), &place);
+        break;
+    default:
+        b = bounds_transformed(extent_of_union(q, o), &place);
     }
-    b = cut_by(q, b, o->bounded_by, o->n_bounded_by, around);
-    return cut_by(q, b, o->clipped_by, o->n_clipped_by, around);
+    b = as_stored(b);
+    b = cut_by(q, b, o->bounded_by, o->n_bounded_by);
+    return cut_by(q, b, o->clipped_by, o->n_clipped_by);
 }
 
 Bounds query_extent(void *query, const Object *o)
 {
-    Affine none = affine_identity();
-    return extent_of(query, o, &none);
+    return extent_of(query, o);
 }
