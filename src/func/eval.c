@@ -29,6 +29,19 @@ int func_terms(const Function *f)
     return f->terms;
 }
 
+bool func_is_cheap(const Function *f)
+{
+    if (f->host != NULL)
+        return false;
+    for (const Instr *i = f->code; i->op != CODE_END; i++) {
+        if (i->op == FUNC_HOST || i->op == FUNC_NATIVE || i->op == FUNC_NOISE)
+            return false;
+        if ((i->op == FUNC_SUM || i->op == FUNC_PROD || i->op == FUNC_CALL) && !func_is_cheap(i->callee))
+            return false;
+    }
+    return true;
+}
+
 static double host_scalar(const FuncHost *host, const double *arguments)
 {
     double out[5] = { 0 };

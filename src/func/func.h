@@ -25,6 +25,9 @@ void func_eval(const Function *f, const double *const *arguments, double *out, u
 /* Pigment and spline functions have vector or colour values: fills 5 numbers, returns false for scalar functions. */
 bool func_call_vector(const Function *f, const double *arguments, double out[5]);
 
+/* Arithmetic and the like only, so that many lanes cost little more than one. */
+bool func_is_cheap(const Function *f);
+
 /* Values of f wherever each parameter lies between lo and hi. False if nothing is known (noise, pigments, NaN...). */
 typedef struct FuncRange { double lo, hi; } FuncRange;
 bool func_range(const Function *f, const FuncRange *arguments, FuncRange *out);
