@@ -17,7 +17,8 @@ Reach item_reach(const Compile *c, uint32_t item)
     const Prim *prim = &c->prim.data[item];
     if (prim->ops->flags & SHAPE_NO_BOX_IN_CSG)
         return (Reach){ bounds_everything(), false };
-    return (Reach){ c->box.data[item], (prim->flags & PRIM_INVERSE) != 0 };
+    bool patch = (prim->flags & PRIM_PATCH) != 0;      /* nowhere inside, also inverted */
+    return (Reach){ c->box.data[item], (prim->flags & PRIM_INVERSE) && !patch };
 }
 
 Bounds item_hull(const Compile *c, uint32_t item)

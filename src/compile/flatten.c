@@ -255,7 +255,7 @@ static uint32_t shape_prims(Compile *c, const Object *o, const Inherited *from)
         if (opaque && c->all_opaque)
             prim->flags |= PRIM_OPAQUE;
         if (c->no_inside)
-            prim->flags = (prim->flags & ~(uint32_t)PRIM_INVERSE) | PRIM_PATCH;
+            prim->flags |= PRIM_PATCH;         /* POV: `inverse` turns its normals still */
     }
     if (!c->all_opaque && m.interior < 2) {    /* it has see-through parts after all: a body of its own */
         Affine none = affine_identity();
