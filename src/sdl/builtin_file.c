@@ -218,7 +218,7 @@ static double signed_number(Parser *p, Lexer *l, Token t)
         lex_next(p, l, &t);
     }
     if (t.kind != TOK_NUMBER)
-        fail(p->diag, t.loc, "#read expected a float, vector or string here");
+        fail(p->diag, t.loc, "Expected 'float, vector, or string literal' to #read");
     return sign * t.number;
 }
 

@@ -180,8 +180,6 @@ static void undef(Parser *p)
     Token name;
     cursor_raw(p, &name);
     Value *v = name.kind == TOK_NAME ? symbol_value(name.sym) : NULL;
-    if (name.kind < N_KEYWORDS)
-        fail(p->diag, name.loc, "Attempt to undef keyword '%.*s'.", STR_ARGS(name.sym->text));
     if (name.kind != TOK_NAME)
         not_a_new_name(p, &name, NULL);
     if (!v || v->kind == VALUE_NONE)
@@ -287,6 +285,9 @@ static void version(Parser *p)
 
 static void include(Parser *p, Loc loc)
 {
+    parse_peek(p);
+    if (!kind_starts_string(p))
+        fail(p->diag, loc, "Expecting a string after INCLUDE.");
     Str name = string_expression(p, true);
     cursor_include(p, name, loc);
 }

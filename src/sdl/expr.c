@@ -64,22 +64,19 @@ bool kind_starts_number(const Parser *p)
 
 static void vector_literal(Parser *p, Num *out)
 {
-    Loc open = p->token.loc;
     p->have = false;
     out->terms = 0;
     for (;;) {
         Num n;
         expr_sum(p, &n);
-        if (out->terms == 5)
-            fail(p->diag, open, "a vector has at most five components");
         out->v[out->terms++] = num_float(p, &n);
-        if (parse_accept(p, TOK_GREATER))
-            break;
-        if (parse_accept(p, TOK_COMMA) && parse_accept(p, TOK_GREATER))
-            break;                             /* POV: a comma may stand before the '>' */
+        if (out->terms > 1 && parse_accept(p, TOK_GREATER))
+            return;
+        if (out->terms == 5)
+            parse_expect(p, TOK_GREATER);
+        if (parse_accept(p, TOK_COMMA) && out->terms > 1 && parse_accept(p, TOK_GREATER))
+            return;                            /* POV: a comma may stand before the '>' */
     }
-    if (out->terms < 2)
-        fail(p->diag, open, "a vector has at least two components");
 }
 
 /* F(a, b): exactly as many floats as the function has parameters. */

@@ -25,9 +25,12 @@ void macro_define(Parser *p, const Token *directive)
     for (cursor_raw(p, &t); t.kind != TOK_RPAREN; cursor_raw(p, &t)) {
         if (t.kind == TOK_COMMA)
             continue;
-        if (t.kind != TOK_NAME)
-            fail(p->diag, t.loc, "Expected 'identifier', %s found instead",
-                 t.kind < N_KEYWORDS ? str_c(p->arena, t.sym->text) : "something else");
+        if (t.kind != TOK_NAME) {
+            p->token = t;
+            p->value = NULL;
+            p->have = true;
+            parse_expected(p, "identifier or expression.");
+        }
         if (m->n_parameters == MAX_PARAMETERS)
             fail(p->diag, t.loc, "Too many parameters: a macro can have at most %d.", MAX_PARAMETERS);
         parameter[m->n_parameters++] = t.sym;
@@ -93,8 +96,7 @@ void macro_call(Parser *p, const Macro *m, Loc loc)
         if (parse_peek(p) == TOK_RPAREN)
             fail(p->diag, loc, "Expected %u parameters but only %u found.", m->n_parameters, i);
         argument(p, &a[i]);
-        if (i + 1 < m->n_parameters)
-            parse_comma(p);
+        parse_comma(p);
     }
     parse_expect(p, TOK_RPAREN);
     symbol_push_table(p, loc);
