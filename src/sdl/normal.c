@@ -1,7 +1,7 @@
 /* normal.c - normal { ... }: bumps. A body starts from the default texture's normal or an identifier's. */
 #include "sdl/blocks.h"
 
-static const Pattern PATTERN_PLAIN = { .frequency = 1, .wave_exponent = 1, .noise_generator = 2 };
+static const Pattern PATTERN_PLAIN = { .frequency = 1, .wave_exponent = 1 };
 const Normal NORMAL_EMPTY = { .kind = NORMAL_PATTERN, .accuracy = 0.02f, .pattern = &PATTERN_PLAIN };
 
 static void choose(Parser *p, Normal *n, PatternDraft *d, const PatternOps *ops)

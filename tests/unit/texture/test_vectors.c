@@ -174,12 +174,27 @@ static void slope_and_aoi_see_the_surface(void **state)
     assert_int_equal(failures, 0);
 }
 
+static void normals_follow_the_noise_generator_of_the_scene(void **state)
+{
+    (void)state;
+    for (int generator = 1; generator <= 3; generator++) {
+        Block b = { 0 };
+        char settings[100];
+        snprintf(settings, sizeof settings, "assumed_gamma 1 noise_generator %d", generator);
+        const Object *o = block_object(&b, settings, "sphere { 0, 1 pigment { bozo } normal { bozo 0.5 } }");
+        assert_int_equal(o->texture->normal->pattern->noise_generator, generator);
+        assert_int_equal(o->texture->pigment->pattern->noise_generator, generator);
+        block_close(&b);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pigments_have_the_measured_colours),
         cmocka_unit_test(images_have_the_measured_colours),
         cmocka_unit_test(normals_have_the_measured_directions),
+        cmocka_unit_test(normals_follow_the_noise_generator_of_the_scene),
         cmocka_unit_test(slope_and_aoi_see_the_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
