@@ -11,6 +11,7 @@ Sampling *sampling_new(Arena *arena, const World *w, const RenderOptions *option
     s->world = w;
     s->tracing = tracing_new(arena, w, options->quality, options->output_alpha);
     s->camera = camera_new(&w->camera, options->width, options->height);
+    s->mesh = mesh_camera_new(arena, w, options->width, options->height);
     s->blur = blur_new(arena, &w->camera);
     s->moves = camera_moves(&w->camera);
     position_hash_fill(&s->hash);
@@ -117,8 +118,28 @@ static Colour blurred(Sampler *s, double x, double y)
     return colour_scaled(sum, 1 / (float)m);
 }
 
+/* ---- mesh cameras ---- */
+
+static Colour through_mesh(Sampler *s, double x, double y)
+{
+    const MeshCamera *mesh = s->sampling->mesh;
+    Colour sum = { 0, 0, 0, 0, 0 };
+    float n = 0;
+    for (int k = 0; k < mesh_camera_rays(mesh); k++) {
+        CameraRay ray;
+        double reach;
+        if (!mesh_camera_ray(mesh, x, y, k, &ray, &reach))
+            continue;
+        sum = colour_add(sum, shoot(s, &ray, reach));
+        n++;
+    }
+    return n > 0 ? colour_scaled(sum, 1 / n) : NOTHING;
+}
+
 Colour sampler_colour(Sampler *s, double x, double y)
 {
+    if (s->sampling->mesh != NULL)
+        return through_mesh(s, x, y);
     if (s->sampling->blur != NULL)
         return blurred(s, x, y);
     CameraRay ray;

@@ -4,6 +4,7 @@
 
 #include "render/blur.h"
 #include "render/camera.h"
+#include "render/mesh_camera.h"
 #include "render/render.h"
 #include "trace/trace.h"
 
@@ -13,6 +14,7 @@ typedef struct Sampling {
     const Tracing *tracing;
     Camera camera;
     const Blur *blur;                          /* NULL: none */
+    const MeshCamera *mesh;                    /* NULL: another kind of camera */
     PositionHash hash;
     bool moves;                                /* the bodies around the eye differ from ray to ray */
 } Sampling;
