@@ -264,7 +264,8 @@ static Bounds extent(const void *params, const Affine *place)
 
 #define POLY_ROW(name)                                                                                             \
     const ShapeOps shape_##name = {                                                                                \
-        .keyword = #name, .params_size = sizeof(Params), .flags = SHAPE_HAS_STURM, .parse = parse_##name,          \
+        .keyword = #name, .params_size = sizeof(Params), .flags = SHAPE_HAS_STURM | SHAPE_BOUND_STAYS,           \
+        .parse = parse_##name,                                                                                    \
         .compile = compile, .hits = hits, .inside = inside, .surface = surface, .extent = extent,                  \
     }
 
