@@ -212,10 +212,13 @@ typedef struct Parity {
     bool odd;
 } Parity;
 
-/* A point on an edge lies on one side of it, the same for both faces: nothing is counted twice. */
-static bool left_of(uint32_t a, uint32_t b, double edge)
+/* Is the ray to the left of the edge from a to b? On it, it is moved aside a little, and a little less the other way: every
+ * edge of a vertex answers for the same move, so nothing is counted twice (Edelsbrunner and Muecke, Simulation of
+ * Simplicity, 1990). */
+static bool left_of(double ax, double ay, double bx, double by)
 {
-    return edge != 0 ? edge > 0 : a < b;
+    double edge = ax * by - ay * bx;
+    return edge != 0 ? edge > 0 : ay != by ? ay > by : bx > ax;
 }
 
 static void count_face(Parity *c, uint32_t i)
@@ -233,7 +236,7 @@ static void count_face(Parity *c, uint32_t i)
     for (int k = 0; k < 3; k++) {
         int n = (k + 1) % 3, over = (k + 2) % 3;
         double edge = x[k] * y[n] - y[k] * x[n];
-        left += left_of(f[k], f[n], edge);
+        left += left_of(x[k], y[k], x[n], y[n]);
         sum += edge;
         depth += edge * z[over];
     }
