@@ -72,6 +72,9 @@ bool parse_at_float(Parser *p);                /* could a float begin here? (a n
 
 /* Bytes of a file found by the library path, within the allowed folders. Fails if it is not there. */
 Str parse_read_file(Parser *p, Str name, Loc where);
+/* The same, also with one of the extensions (ended by NULL) appended; false if there is none. */
+bool parse_find_file(Parser *p, Str name, const char *const *extensions, Loc where, Str *out);
+bool parse_charset_is_ascii(const Parser *p);  /* as global_settings said; strings are UTF-8 in any case */
 
 _Noreturn void parse_fail(Parser *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void parse_warn(Parser *p, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -9,6 +9,9 @@ static void temp_is_full(void *user)
     fail_io(p->diag, (Loc){ 0 }, "out of memory while reading the scene");
 }
 
+/* Where systems keep the fonts of POV-Ray's library, which has links to them. */
+static const char FONT_FOLDER[] = "/usr/share/fonts";
+
 /* What a scene may touch: the folder it is in, the current one, the library, and what the options add. */
 static void init_access(Parser *p)
 {
@@ -17,6 +20,7 @@ static void init_access(Parser *p)
     file_allow_read(p->arena, &p->access, p->scene_folder);
     for (uint32_t i = 0; i < o->n_library_paths; i++)
         file_allow_read(p->arena, &p->access, o->library_path[i]);
+    file_allow_read(p->arena, &p->access, str_of(FONT_FOLDER));
     for (uint32_t i = 0; i < o->n_allow_read; i++)
         file_allow_read(p->arena, &p->access, o->allow_read[i]);
     for (uint32_t i = 0; i < o->n_allow_write; i++)

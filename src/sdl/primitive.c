@@ -301,6 +301,17 @@ Str parse_read_file(Parser *p, Str name, Loc where)
     return file_find(p, name, none, where, true, &source, true);
 }
 
+bool parse_find_file(Parser *p, Str name, const char *const *extensions, Loc where, Str *out)
+{
+    *out = file_find(p, name, extensions, where, false, NULL, true);
+    return out->data != NULL;
+}
+
+bool parse_charset_is_ascii(const Parser *p)
+{
+    return p->charset == CHARSET_ASCII;
+}
+
 /* Where the last token read begins, like the reference: a mistake in a block's last argument is told at its brace. */
 static Loc fail_loc(Parser *p)
 {
