@@ -1,4 +1,4 @@
-/* noise_tables.h - the tables behind noise, shared by noise.c and the builds of noise_kernel.c. Private to them. */
+/* noise_tables.h - the tables behind noise, for noise.c, the builds of noise_kernel.c, and who visits many cells. */
 #ifndef MATH_NOISE_TABLES_H
 #define MATH_NOISE_TABLES_H
 

@@ -1,12 +1,10 @@
 /* crackle.c - distances to random points, one in every unit cube (Worley 1996), and cells, one number for every cube.
  *
- * Cubes are visited from the near to the far; one that is farther away than the third nearest point so far is passed over, which
- * leaves a dozen of the 81. */
-#include "pattern/crackle.h"
-
+ * Cubes are visited from the near to the far; those farther away than the points found so far are passed over, which leaves about
+ * ten of the 81. */
 #include <stdint.h>
 
-#include "math/noise.h"
+#include "math/noise_tables.h"
 #include "pattern/wave.h"
 #include "sdl/parse.h"
 
@@ -34,13 +32,8 @@ static bool item(Parser *p, void *params)
     return true;
 }
 
-/* The 27 cubes around, then the 54 beyond: near ones first. */
-static const int8_t cubes[81][3] = {
-    { 0, 0, 0 },
-    { -1, 0, 0 }, { 1, 0, 0 }, { 0, -1, 0 }, { 0, 1, 0 }, { 0, 0, -1 }, { 0, 0, 1 },
-    { -1, -1, 0 }, { -1, 1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 0, -1 }, { -1, 0, 1 }, { 1, 0, -1 }, { 1, 0, 1 }, { 0, -1, -1 },
-    { 0, -1, 1 }, { 0, 1, -1 }, { 0, 1, 1 },
-    { -1, -1, -1 }, { -1, -1, 1 }, { -1, 1, -1 }, { -1, 1, 1 }, { 1, -1, -1 }, { 1, -1, 1 }, { 1, 1, -1 }, { 1, 1, 1 },
+/* The 54 cubes two steps away along one axis. */
+static const int8_t beyond[54][3] = {
 #define BEYOND(a) \
     { a, 0, 0 }, { 0, a, 0 }, { 0, 0, a }, { a, -1, 0 }, { a, 1, 0 }, { a, 0, -1 }, { a, 0, 1 }, { -1, a, 0 }, { 1, a, 0 }, \
     { 0, a, -1 }, { 0, a, 1 }, { -1, 0, a }, { 1, 0, a }, { 0, -1, a }, { 0, 1, a }, { a, -1, -1 }, { a, -1, 1 }, { a, 1, -1 }, \
@@ -50,7 +43,7 @@ static const int8_t cubes[81][3] = {
 
 typedef struct Grid { long long x, y, z; Vec3 low; } Grid;
 
-static Grid grid_of(Vec3 p)
+static inline Grid grid_of(Vec3 p)
 {
     Grid g = { .low = vec3(floor(p.x - PATTERN_TINY), floor(p.y - PATTERN_TINY), floor(p.z - PATTERN_TINY)) };
     if (max_abs(g.low) < 9e15) {               /* beyond, cubes cannot be told apart anyway */
@@ -61,11 +54,16 @@ static Grid grid_of(Vec3 p)
     return g;
 }
 
-static Vec3 point_in(const Grid *g, const int8_t cube[3])
+/* Of the cube (x, y, z) steps from the first; row: the hash of its first two coordinates. */
+static inline Vec3 point_in(const Grid *g, unsigned row, int x, int y, int z)
 {
-    unsigned k = noise_cell(g->x + cube[0], g->y + cube[1], g->z + cube[2]);
-    return vec3(g->low.x + cube[0] + noise_random(k), g->low.y + cube[1] + noise_random(k + 1),
-                g->low.z + cube[2] + noise_random(k + 2));
+    const double *t = noise_tables.random + noise_tables.hash[row ^ (unsigned)((g->z + z) & 4095)];
+    return vec3(g->low.x + x + t[0], g->low.y + y + t[1], g->low.z + z + t[2]);
+}
+
+static inline unsigned row_of(const Grid *g, int x, int y)
+{
+    return noise_tables.hash[noise_tables.hash[(g->x + x) & 4095] ^ (unsigned)((g->y + y) & 4095)];
 }
 
 static inline double measure(double x, double y, double z, double metric)
@@ -77,57 +75,78 @@ static inline double measure(double x, double y, double z, double metric)
     return pow(fabs(x), metric) + pow(fabs(y), metric) + pow(fabs(z), metric);
 }
 
-/* How far p, at f from the low corner of its cube, is at least from a cube `a` steps along. */
-static inline double gap(double f, int a)
+typedef struct Near {
+    double s[3];                               /* the smallest sums of |d|^metric */
+    Vec3 nearest;
+} Near;
+
+static inline void offer(Near *near, double s, Vec3 q)
 {
-    return a == 0 ? 0 : a > 0 ? a - f : f - (a + 1);
+    if (s < near->s[0]) {
+        *near = (Near){ { s, near->s[0], near->s[1] }, q };
+    } else if (s < near->s[1]) {
+        near->s[2] = near->s[1];
+        near->s[1] = s;
+    } else if (s < near->s[2]) {
+        near->s[2] = s;
+    }
 }
 
-CrackleNear crackle_near(Vec3 p, double metric)
+/* The steps along one axis, near cubes first, and the least part of each in the distance. f: from the low corner of the cube. The
+ * slack covers the rounding of the points' coordinates. */
+typedef struct Axis { int step[3]; double gap[3]; } Axis;
+
+static inline Axis axis_of(double f, double metric)
+{
+    int side = f > 0.5 ? 1 : -1;
+    double low = fmax(0, f) * (1 - 1e-9), high = fmax(0, 1 - f) * (1 - 1e-9);
+    return (Axis){ { 0, side, -side }, { 0, measure(side > 0 ? high : low, 0, 0, metric), measure(side > 0 ? low : high, 0, 0, metric) } };
+}
+
+/* `last`: which of the three smallest is wanted last. What lies farther away than that one so far is passed over; metric > 0. */
+static inline Near near_of(Vec3 p, double metric, int last)
 {
     Grid g = grid_of(p);
-    Vec3 f = sub(p, g.low);
-    double axis[3][5];                         /* the part of each axis in the distance to a cube, -2..2 */
-    bool prune = metric > 0;
-    for (int a = -2; prune && a <= 2; a++) {
-        axis[0][a + 2] = measure(fmax(0, gap(f.x, a)), 0, 0, metric);
-        axis[1][a + 2] = measure(fmax(0, gap(f.y, a)), 0, 0, metric);
-        axis[2][a + 2] = measure(fmax(0, gap(f.z, a)), 0, 0, metric);
-    }
-    CrackleNear near = { .s = { INFINITY, INFINITY, INFINITY } };
-    for (int i = 0; i < 81; i++) {
-        const int8_t *cube = cubes[i];
-        /* The slack covers the rounding of the point's own coordinates. */
-        if (prune && (axis[0][cube[0] + 2] + axis[1][cube[1] + 2] + axis[2][cube[2] + 2]) * (1 - 1e-9) > near.s[2])
-            continue;
-        Vec3 q = point_in(&g, cube);
-        double s = measure(p.x - q.x, p.y - q.y, p.z - q.z, metric);
-        if (s < near.s[0]) {
-            near = (CrackleNear){ { s, near.s[0], near.s[1] }, q };
-        } else if (s < near.s[1]) {
-            near.s[2] = near.s[1];
-            near.s[1] = s;
-        } else if (s < near.s[2]) {
-            near.s[2] = s;
+    Axis ax = axis_of(p.x - g.low.x, metric), ay = axis_of(p.y - g.low.y, metric), az = axis_of(p.z - g.low.z, metric);
+    Near near = { .s = { INFINITY, INFINITY, INFINITY } };
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            double gap = ax.gap[i] + ay.gap[j];
+            if (gap > near.s[last])
+                break;
+            unsigned row = row_of(&g, ax.step[i], ay.step[j]);
+            for (int k = 0; k < 3 && gap + az.gap[k] <= near.s[last]; k++) {
+                Vec3 q = point_in(&g, row, ax.step[i], ay.step[j], az.step[k]);
+                offer(&near, measure(p.x - q.x, p.y - q.y, p.z - q.z, metric), q);
+            }
         }
+    for (int i = 0; near.s[last] > 1 - 1e-9 && i < 54; i++) {
+        const int8_t *c = beyond[i];
+        Vec3 q = point_in(&g, row_of(&g, c[0], c[1]), c[0], c[1], c[2]);
+        offer(&near, measure(p.x - q.x, p.y - q.y, p.z - q.z, metric), q);
     }
     return near;
 }
 
-Vec3 crackle_lowest(Vec3 p)
+/* Metrics that are not positive turn near and far round: all 81 cubes count. */
+static Near near_of_all(Vec3 p, double metric)
 {
     Grid g = grid_of(p);
-    Vec3 lowest = p;
-    double best = INFINITY;
+    Near near = { .s = { INFINITY, INFINITY, INFINITY } };
     for (int i = 0; i < 81; i++) {
-        Vec3 q = point_in(&g, cubes[i]);
-        double s = (q.x - p.x) + (q.y - p.y) + (q.z - p.z);
-        if (s < best) {
-            best = s;
-            lowest = q;
-        }
+        int x = i < 27 ? i % 3 - 1 : beyond[i - 27][0], y = i < 27 ? i / 3 % 3 - 1 : beyond[i - 27][1];
+        int z = i < 27 ? i / 9 - 1 : beyond[i - 27][2];
+        Vec3 q = point_in(&g, row_of(&g, x, y), x, y, z);
+        offer(&near, measure(p.x - q.x, p.y - q.y, p.z - q.z, metric), q);
     }
-    return lowest;
+    return near;
+}
+
+static Near nearest(Vec3 p, double metric, int last)
+{
+    if (metric == 2)
+        return last < 2 ? near_of(p, 2, 1) : near_of(p, 2, 2);
+    return metric > 0 ? near_of(p, metric, last) : near_of_all(p, metric);
 }
 
 static double distance(double s, double metric)
@@ -138,7 +157,7 @@ static double distance(double s, double metric)
 static double value(const void *params, const PatternPoint *at)
 {
     const Crackle *c = params;
-    CrackleNear near = crackle_near(at->p, c->metric);
+    Near near = nearest(at->p, c->metric, c->form.z != 0 ? 2 : 1);
     if (c->solid)
         return noise_value(at->pattern->noise_generator, near.nearest);
     double extra = 0, v = 0;
