@@ -120,10 +120,10 @@ static Rgb answer(const Shade *s, const Layer *layer, const Light *light, Vec3 l
     const Finish *f = layer->finish;
     double cosine = dot(layer->n, l);
     Rgb sum = rgb_grey(0);
-    double k = diffuse_strength(layer, behind) * layer->opacity;
-    if (k > 0) {
+    double k = diffuse_strength(layer, behind);
+    if (k > 0) {                               /* opacity may be negative: a colour with filter + transmit above 1 */
         double intensity = f->brilliance == 1 ? fabs(cosine) : pow(fabs(cosine), (double)f->brilliance);
-        sum = rgb_scaled(layer->colour, (float)(intensity * k - grain));
+        sum = rgb_scaled(layer->colour, (float)(intensity * k * layer->opacity - grain));
     }
     if (!light->def->shadowless && !behind && (f->phong > 0 || f->specular > 0)) {
         double shine = (f->phong > 0 ? phong(f, s->path->d, layer->n, l) : 0) +
@@ -174,7 +174,7 @@ static Rgb shadowed(Shade *s, uint32_t index, const Beam *beam)
 
 static double grain_of(Shade *s, const Layer *layer, bool behind)
 {
-    if (!(layer->finish->crand > 0) || !(diffuse_strength(layer, behind) * layer->opacity > 0))
+    if (!(layer->finish->crand > 0) || !(diffuse_strength(layer, behind) > 0))
         return 0;
     return (double)layer->finish->crand * streams_crand(&s->t->chance);
 }
