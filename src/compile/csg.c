@@ -50,6 +50,22 @@ bool item_holds(const Compile *c, uint32_t item, Bounds box)
     return true;
 }
 
+/* What a child leaves of a box that the others of an intersection have cut. */
+static Bounds cut_by_child(const Compile *c, uint32_t item, Bounds box)
+{
+    if (is_node(item))
+        return box;
+    const Prim *prim = &c->prim.data[item];
+    if (prim->ops->within == NULL || (prim->flags & (PRIM_INVERSE | PRIM_PATCH)) || bounds_is_empty(box))
+        return box;
+    const Affine *place = &c->place.data[prim->place];
+    Affine back = affine_inverse(*place);
+    Bounds local = prim->ops->within(prim->data, bounds_transformed(box, &back));
+    if (bounds_is_empty(local))
+        return box;
+    return bounds_intersection(box, bounds_transformed(local, place));
+}
+
 /* Of all children together. An ALL is outside wherever one child is; if every child is a complement, it is one itself. */
 static Reach reach_of(const Compile *c, CsgOp op, const Items *children)
 {
@@ -66,6 +82,9 @@ static Reach reach_of(const Compile *c, CsgOp op, const Items *children)
             around = bounds_union(around, r.box);
         }
     }
+    if (op == CSG_ALL)
+        for (uint32_t i = 0; i < children->n; i++)
+            within = cut_by_child(c, children->data[i], within);
     if (op == CSG_ALL)
         return n_co > 0 && n_co == children->n ? (Reach){ co_around, true } : (Reach){ within, false };
     return n_co > 0 ? (Reach){ co_within, true } : (Reach){ around, false };
@@ -144,6 +163,21 @@ void csg_reverse(Compile *c, uint32_t first_prim, uint32_t first_node)
     }
 }
 
+/* A ray that misses the bounds misses the body, so the body's leaves are looked for within their boxes, as POV-Ray does: what a
+ * bound that is too small leaves outside shows only on rays that meet it. */
+static Bounds bound_box(const Compile *c, const CsgNode *node)
+{
+    if (node->n == 1)
+        return node->box;
+    Bounds box = bounds_everything();
+    for (uint32_t i = 1; i < node->n; i++) {
+        Reach r = item_reach(c, c->csg_child.data[node->first + i]);
+        if (!r.co)
+            box = bounds_intersection(box, r.box);
+    }
+    return box;
+}
+
 static void cut_item(Compile *c, uint32_t item, Bounds limit)
 {
     if (!is_node(item)) {
@@ -151,7 +185,9 @@ static void cut_item(Compile *c, uint32_t item, Bounds limit)
         return;
     }
     const CsgNode *node = &c->csg.data[~item];
-    if (!(node->flags & (CSG_INVERSE | CSG_BOUND)))
+    if (node->flags & CSG_BOUND)
+        limit = bounds_intersection(limit, bound_box(c, node));
+    else if (!(node->flags & CSG_INVERSE))
         limit = bounds_intersection(limit, node->box);
     for (uint32_t i = 0; i < node->n; i++)
         cut_item(c, c->csg_child.data[node->first + i], limit);

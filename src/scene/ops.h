@@ -42,6 +42,9 @@ struct ShapeOps {
     /* Reports every root with t in (ray->t_min, ray->t_max], in any order, by hit_add. t is a function of shape and
      * ray alone: t_max may skip work, never enter arithmetic. The ray is in the prim's local space, d not of unit length. */
     void (*hits)(const void *shape, const Ray *ray, HitSink *sink);
+    /* Optional: bounds the shape's solid within a box, all in the shape's space, where it has no finite box of its own: a cone
+     * between two planes. */
+    Bounds (*within)(const void *shape, Bounds box);
     bool (*inside)(const void *shape, Vec3 p);                 /* NULL: never inside */
     void (*surface)(const void *shape, const Hit *hit, Surface *out);  /* for the winner only; see Surface */
     /* The box that min_extent and max_extent report (08-shapes 4.1), in the space `place` takes the shape's own to: some

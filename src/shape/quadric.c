@@ -79,6 +79,54 @@ static void compile(ShapeBuild *b, const void *params)
     build_prim(b, out, &place, bounds_is_finite(box) ? shape_padded(box) : box);
 }
 
+/* The least of a u^2 + b u over [lo, hi]; the ends may be infinite. */
+static double least(double a, double b, double lo, double hi)
+{
+    if (a > 0) {
+        double u = fmin(fmax(-b / (2 * a), lo), hi);
+        return (a * u + b) * u;
+    }
+    if (a == 0 && b == 0)
+        return 0;
+    if (!isfinite(lo) && (a < 0 || b > 0))
+        return -INFINITY;
+    if (!isfinite(hi) && (a < 0 || b < 0))
+        return -INFINITY;
+    double at_lo = isfinite(lo) ? (a * lo + b) * lo : INFINITY, at_hi = isfinite(hi) ? (a * hi + b) * hi : INFINITY;
+    return fmin(at_lo, at_hi);
+}
+
+/* Where a u^2 + b u + c <= 0 can be, for a > 0; nothing is known otherwise. */
+static void limit(double a, double b, double c, double *lo, double *hi)
+{
+    if (!(a > 0) || !isfinite(c))
+        return;
+    double middle = -b / (2 * a), reach2 = middle * middle - c / a;
+    double reach = reach2 > 0 ? sqrt(reach2) * (1 + 1e-9) + fabs(middle) * 1e-9 : fabs(middle) * 1e-9;
+    *lo = fmax(*lo, middle - reach);
+    *hi = fmin(*hi, middle + reach);
+}
+
+/* Axis by axis: the other two terms are at least so much within the box, so this one is at most so much. */
+static Bounds within(const void *shape, Bounds box)
+{
+    const Quadric *q = shape;
+    if (max_abs(q->mixed) > 0)
+        return box;
+    Bounds out = box;
+    for (int i = 0; i < 3; i++) {
+        double rest = q->constant;
+        for (int j = 0; j < 3; j++)
+            if (j != i)
+                rest += least(vec3_at(q->square, j), vec3_at(q->linear, j), vec3_at(box.lo, j), vec3_at(box.hi, j));
+        double lo = vec3_at(box.lo, i), hi = vec3_at(box.hi, i);
+        limit(vec3_at(q->square, i), vec3_at(q->linear, i), rest, &lo, &hi);
+        vec3_set(&out.lo, i, lo);
+        vec3_set(&out.hi, i, hi);
+    }
+    return out;
+}
+
 static void hits(const void *shape, const Ray *ray, HitSink *sink)
 {
     const Quadric *q = shape;
@@ -115,5 +163,5 @@ static Bounds extent(const void *params, const Affine *place)
 
 const ShapeOps shape_quadric = {
     .keyword = "quadric", .params_size = sizeof(Params), .flags = SHAPE_NORMAL_STAYS | SHAPE_BOUND_STAYS, .parse = parse, .compile = compile,
-    .hits = hits, .inside = inside, .surface = surface, .extent = extent,
+    .within = within, .hits = hits, .inside = inside, .surface = surface, .extent = extent,
 };
