@@ -117,6 +117,7 @@ typedef struct Walk {
     Ray ray;
     Interiors in;
     double done;                               /* how far it has come */
+    double clear;                              /* surfaces up to here coincide with the last one */
     bool in_air;                               /* fog dims this light */
     Rgb colour;
 } Walk;
@@ -146,6 +147,7 @@ static void pass_surface(Walk *walk, const Hit *hit)
     else
         interiors_add(&walk->in, interior);
     walk->done = hit->t;
+    walk->clear = hit->t + 2 * surface.error / fmax(fabs(dot(surface.geometric, walk->ray.d)), 0x1p-20);
 }
 
 /* Not for a light that an object of the scene has to pass first. */
@@ -174,6 +176,8 @@ static Rgb walk_veils(Walk *walk, uint32_t light)
         }
         qsort(veils.hit, veils.n, sizeof veils.hit[0], hit_order);
         for (uint32_t i = 0; i < veils.n; i++) {
+            if (veils.hit[i].t <= walk->clear)
+                continue;                      /* seen as one surface, as rays that go on from it see it */
             pass_surface(walk, &veils.hit[i]);
             if (rgb_is_zero(walk->colour))
                 return walk->colour;
