@@ -221,16 +221,17 @@ static unsigned distance(Str a, Str b)
     return row[a.n % 3][b.n];
 }
 
+/* Short names resemble each other by chance: these must differ by one letter, or by case alone. */
 Str symbol_nearest(Parser *p, const Sym *s)
 {
     const Sym *best = NULL;
-    unsigned best_distance = s->text.n <= 3 ? 2 : 3;           /* short names: only one letter off */
+    unsigned best_distance = s->text.n < 3 ? 0 : s->text.n < 6 ? 1 : 2;
     for (uint32_t i = 0; i <= p->sym_mask; i++) {
         const Sym *other = p->sym[i];
         if (!other || other == s || !(other->keyword || other->binding))
             continue;
-        unsigned d = str_equal_nocase(s->text, other->text) ? 1 : distance(s->text, other->text);
-        if (d < best_distance || (best && d == best_distance && str_compare(other->text, best->text) < 0)) {
+        unsigned d = str_equal_nocase(s->text, other->text) ? 0 : distance(s->text, other->text);
+        if (d < best_distance || (d == best_distance && (!best || str_compare(other->text, best->text) < 0))) {
             best = other;
             best_distance = d;
         }
