@@ -4,13 +4,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
 
 #include "base/array.h"
 
-enum { FIRST_BLOCK = 1 << 14, LARGEST_STEP = 1 << 24, SMALL_ALIGN = 16, LARGE_ALIGN = 64, HUGE_PAGE = 1 << 21 };
+enum { FIRST_BLOCK = 1 << 14, LARGEST_STEP = 1 << 24, SMALL_ALIGN = 16, LARGE_ALIGN = 64 };
 
 struct ArenaBlock {
     ArenaBlock *older;
@@ -42,21 +39,6 @@ void arena_free(Arena *a)
     a->used = 0;
 }
 
-/* Large blocks lie on huge pages where the system has them: half the time of reading a big scene was page faults. */
-static void *block_memory(size_t bytes)
-{
-#ifdef MADV_HUGEPAGE
-    if (bytes >= 2 * (size_t)HUGE_PAGE) {
-        size_t whole = (bytes + HUGE_PAGE - 1) & ~((size_t)HUGE_PAGE - 1);
-        void *memory = aligned_alloc(HUGE_PAGE, whole);
-        if (memory)
-            madvise(memory, whole, MADV_HUGEPAGE);
-        return memory;
-    }
-#endif
-    return malloc(bytes);
-}
-
 static void add_block(Arena *a, size_t bytes)
 {
     size_t size = a->block ? a->block->size * 2 : FIRST_BLOCK;
@@ -64,7 +46,7 @@ static void add_block(Arena *a, size_t bytes)
         size = LARGEST_STEP;
     if (size < bytes + LARGE_ALIGN)
         size = bytes + LARGE_ALIGN;
-    ArenaBlock *b = block_memory(sizeof *b + size);
+    ArenaBlock *b = malloc(sizeof *b + size);
     if (!b)
         out_of_memory(a);
     b->older = a->block;

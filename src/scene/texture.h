@@ -90,12 +90,11 @@ typedef enum PigmentKind {
 
 struct Pigment {
     PigmentKind kind;
-    bool has_quick, has_colour;                /* has_colour: a plain colour was written (not the black default) */
-    Colour colour, quick;
+    Colour colour;
+    const Colour *quick;                       /* NULL: no quick_color */
     const Pattern *pattern;                    /* NULL for a plain colour; the chain alone counts for average and image */
     BlendMap map;
     const ImageMap *image;
-    Loc loc;
 };
 
 typedef enum NormalKind {
@@ -113,7 +112,6 @@ struct Normal {
     BlendMap map;
     const ImageMap *image;
     double facets_size, facets_coords, facets_metric;
-    Loc loc;
 };
 
 typedef struct Finish {
@@ -148,7 +146,6 @@ struct Texture {
     BlendMap map;
     const ImageMap *image;                     /* material_map */
     const Texture *below;
-    Loc loc;
 };
 
 #endif

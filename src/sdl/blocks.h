@@ -35,7 +35,7 @@ typedef struct Blocks {
     struct ImageSeen *images;
     Pigment *free_pigment;                     /* plain pigments and textures are cut from pieces of many: ... */
     Texture *free_texture;
-    uint32_t n_free_pigments, n_free_textures; /* ... the arena would round each up to 128 bytes */
+    uint32_t n_free_pigments, n_free_textures; /* ... the arena would round each up */
     const Pigment *pigment_cache[TEXTURE_CACHE];           /* plain colours, by their bits */
     const Texture *texture_cache[TEXTURE_CACHE];           /* plain textures, by their parts */
     const Finish *finish_cache[FINISH_CACHE];
@@ -94,7 +94,7 @@ extern const Normal NORMAL_EMPTY;              /* flat */
 extern const Finish FINISH_DEFAULT;
 
 const Pigment *pigment_body(Parser *p, const Pigment *base, PatternUse use);       /* of a pigment or a density */
-const Pigment *pigment_of_colour(Parser *p, Colour c, Loc loc);
+const Pigment *pigment_of_colour(Parser *p, Colour c);
 const Normal *normal_body(Parser *p, const Normal *base);  /* base may be NULL */
 bool normal_is_unfinished(const Normal *n);    /* no pattern was ever written */
 const Finish *finish_block(Parser *p, const Finish *base); /* at the brace */

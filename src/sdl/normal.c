@@ -83,14 +83,12 @@ static bool modifier(Parser *p, Normal *n, PatternDraft *d)
 /* base may be NULL: nothing to start from. */
 const Normal *normal_body(Parser *p, const Normal *base)
 {
-    Loc loc = parse_loc(p);
     const Normal *known = parse_take_block(p, BLOCK_NORMAL);
     if (known != NULL)
         base = known;
     Normal n = base != NULL ? *base : NORMAL_EMPTY;
     if (base == NULL)
         n.amount = 0.5f;
-    n.loc = loc;
     if (parse_accept(p, KW_UV_MAPPING)) {
         MapEntry *inner = arena_new(parse_arena(p), MapEntry);
         inner->normal = normal_body(p, base);

@@ -49,7 +49,6 @@ static bool choose_kind(Parser *p, Pigment *g, PatternDraft *d, PatternUse use)
     if (parse_at_colour(p)) {
         g->kind = PIGMENT_PLAIN;
         g->colour = parse_colour(p);
-        g->has_colour = true;
         return true;
     }
     int keyword = parse_peek(p);
@@ -83,6 +82,7 @@ static void refuse_map(Parser *p, const Pigment *g, const PatternDraft *d, int k
 static bool modifier(Parser *p, Pigment *g, PatternDraft *d, PatternUse use)
 {
     int keyword = parse_peek(p);
+    Colour c;
     switch (keyword) {
     case KW_COLOR_MAP:
         refuse_map(p, g, d, keyword);
@@ -102,8 +102,8 @@ static bool modifier(Parser *p, Pigment *g, PatternDraft *d, PatternUse use)
         if (use != USE_PIGMENT)
             map_misplaced(p, keyword);
         parse_skip(p);
-        g->quick = parse_colour(p);
-        g->has_quick = true;
+        c = parse_colour(p);
+        g->quick = arena_copy(parse_arena(p), &c, sizeof c);
         return true;
     default: return pattern_modifier(p, d);
     }
@@ -111,7 +111,7 @@ static bool modifier(Parser *p, Pigment *g, PatternDraft *d, PatternUse use)
 
 static bool same_colour(const Pigment *a, const Pigment *b)
 {
-    return memcmp(&a->colour, &b->colour, sizeof a->colour) == 0 && a->has_colour == b->has_colour;
+    return memcmp(&a->colour, &b->colour, sizeof a->colour) == 0;
 }
 
 /* One-colour pigments by their bits; the newest stays. */
@@ -135,18 +135,17 @@ static const Pigment *plain_pigment(Parser *p, const Pigment *g)
     return kept;
 }
 
-const Pigment *pigment_of_colour(Parser *p, Colour c, Loc loc)
+const Pigment *pigment_of_colour(Parser *p, Colour c)
 {
-    Pigment g = { .kind = PIGMENT_PLAIN, .has_colour = true, .colour = c, .loc = loc };
+    Pigment g = { .kind = PIGMENT_PLAIN, .colour = c };
     return plain_pigment(p, &g);
 }
 
 static const Pigment *close_body(Parser *p, Pigment *g, PatternDraft *d, const Pigment *base)
 {
     if (g->kind == PIGMENT_PLAIN) {
-        *g = (Pigment){ .kind = PIGMENT_PLAIN, .colour = g->colour, .quick = g->quick, .has_quick = g->has_quick,
-                        .has_colour = g->has_colour, .loc = g->loc };
-        if (!g->has_quick)
+        *g = (Pigment){ .kind = PIGMENT_PLAIN, .colour = g->colour, .quick = g->quick };
+        if (g->quick == NULL)
             return plain_pigment(p, g);
         return arena_copy(parse_arena(p), g, sizeof *g);
     }
@@ -164,7 +163,6 @@ static const Pigment *close_body(Parser *p, Pigment *g, PatternDraft *d, const P
 
 const Pigment *pigment_body(Parser *p, const Pigment *base, PatternUse use)
 {
-    Loc loc = parse_loc(p);
     const Pigment *known = parse_take_block(p, use == USE_DENSITY ? BLOCK_DENSITY : BLOCK_PIGMENT);
     if (known != NULL)
         base = known;
@@ -172,7 +170,7 @@ const Pigment *pigment_body(Parser *p, const Pigment *base, PatternUse use)
         MapEntry *inner = arena_new(parse_arena(p), MapEntry);
         inner->pigment = pigment_body(p, base, use);
         Pigment *uv = arena_new(parse_arena(p), Pigment);
-        *uv = (Pigment){ .kind = PIGMENT_UV, .pattern = &PATTERN_PLAIN, .map = { MAP_PIGMENT, 1, inner }, .loc = loc };
+        *uv = (Pigment){ .kind = PIGMENT_UV, .pattern = &PATTERN_PLAIN, .map = { MAP_PIGMENT, 1, inner } };
         return uv;
     }
     Pigment g = *base;
@@ -182,8 +180,6 @@ const Pigment *pigment_body(Parser *p, const Pigment *base, PatternUse use)
         parse_warn(p, "Pigment type unspecified or not 1st item.");
     while (modifier(p, &g, &d, use))
         ;
-    if (known == NULL)
-        g.loc = loc;
     return close_body(p, &g, &d, base);
 }
 

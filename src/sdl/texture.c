@@ -102,10 +102,9 @@ static const Pigment *literal(Parser *p, const Texture *top, int keyword)
 {
     Reader *r = &p->reader[p->n_readers - 1];
     Colour c;
-    if (keyword == KW_FINISH || keyword == KW_NORMAL || p->have || !r->is_file || top->kind != TEXTURE_PLAIN || top->pigment->has_quick)
+    if (keyword == KW_FINISH || keyword == KW_NORMAL || p->have || !r->is_file || top->kind != TEXTURE_PLAIN || top->pigment->quick != NULL)
         return NULL;
-    Loc loc = p->token.loc;
-    return lex_pigment_literal(&r->lexer, keyword == KW_TEXTURE, &c) ? pigment_of_colour(p, c, loc) : NULL;
+    return lex_pigment_literal(&r->lexer, keyword == KW_TEXTURE, &c) ? pigment_of_colour(p, c) : NULL;
 }
 
 const Texture *texture_part(Parser *p, const Texture *top)
@@ -276,7 +275,7 @@ static void material_map(Parser *p, Texture *t)
 static const Texture *patterned(Parser *p)
 {
     const Texture *standard = parse_blocks(p)->default_texture;
-    Texture t = { .kind = TEXTURE_PATTERN, .pigment = standard->pigment, .finish = standard->finish, .loc = parse_loc(p) };
+    Texture t = { .kind = TEXTURE_PATTERN, .pigment = standard->pigment, .finish = standard->finish };
     PatternDraft d;
     int keyword = parse_peek(p);
     const PatternOps *ops = NULL;

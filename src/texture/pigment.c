@@ -67,8 +67,8 @@ Colour pigment_colour(const Pigment *pigment, Vec3 p, const TextureContext *at, 
 {
     if (at == NULL)
         at = &nowhere;
-    if (pigment->has_quick && at->quality <= 5)
-        return pigment->quick;
+    if (pigment->quick != NULL && at->quality <= 5)
+        return *pigment->quick;
     switch (pigment->kind) {
     case PIGMENT_PLAIN: return pigment->colour;
     case PIGMENT_PATTERN: return patterned(pigment, p, at, found);
@@ -94,7 +94,7 @@ static bool map_is_opaque(const BlendMap *map)
 
 bool pigment_is_opaque(const Pigment *pigment)
 {
-    if (pigment->has_quick && clear(pigment->quick))
+    if (pigment->quick != NULL && clear(*pigment->quick))
         return false;
     switch (pigment->kind) {
     case PIGMENT_PLAIN: return !clear(pigment->colour);

@@ -17,7 +17,7 @@ static bool same_colour(Colour a, Colour b)
 /* The colour that a pigment has everywhere. A blend of c and c is c + t (c - c): c itself. */
 static bool one_colour(const Pigment *p, Colour *out)
 {
-    if (p->has_quick)
+    if (p->quick != NULL)
         return false;
     if (p->kind == PIGMENT_PLAIN) {
         *out = p->colour;
@@ -59,7 +59,7 @@ static const Pigment *prune_pigment(Arena *a, const Pigment *pigment)
         return pigment;
     if (one_colour(pigment, &c)) {
         Pigment *plain = arena_new(a, Pigment);
-        *plain = (Pigment){ .kind = PIGMENT_PLAIN, .has_colour = true, .colour = c, .loc = pigment->loc };
+        *plain = (Pigment){ .kind = PIGMENT_PLAIN, .colour = c };
         return plain;
     }
     if (pigment->map.kind != MAP_PIGMENT)
