@@ -1,0 +1,412 @@
+/* height_field.c - height_field { image or function [water_level L] [smooth] }: two triangles over each cell of a grid.
+ *
+ * Rays descend a pyramid of lowest and highest heights, in which a node is a square of 2^level cells, nearest squares first.
+ * In a cell the height over the ray is asked where it crosses the cell's sides and its diagonal: those numbers are the same
+ * for the neighbour, and between two of them both ray and ground are straight, so no ray slips through. All is in map
+ * units: x and z count points, y is 0 ... 65535 (08-shapes, section 14).
+ * Parts: 0 and 1, the triangles of the cell (u, v). */
+#include "image/image.h"
+#include "scene/image_map.h"
+#include "sdl/parse.h"
+#include "shape/shape.h"
+
+enum { MOST_LEVELS = 17, TOP = 65536 };
+
+typedef struct { uint16_t lo, hi; } Range;
+
+typedef struct {
+    uint32_t w, h;                             /* points */
+    const uint16_t *height;                    /* row z = 0 first */
+    const Range *range[MOST_LEVELS];           /* range[l]: squares of 2^l cells, l >= 1 */
+    uint32_t top;                              /* the level that is one square */
+    double water;                              /* 0 ... 65536 */
+    bool smooth;
+} Params;
+
+typedef struct {
+    Params map;
+    double lowest, highest;                    /* what can be hit */
+    Affine place;                              /* map units to the world, for smooth normals */
+} Field;
+
+/* POV: hits this far outside the heights' range still count, in map units. */
+static const double SLACK = 0.001;
+
+/* ---- the map ---- */
+
+/* Raw samples count, also where the file says how they are encoded; with `gamma` they are decoded to the file's own depth. */
+static uint32_t level_of(const Image *im, float value)
+{
+    double level = trunc((double)value * im->max_value * (1 + 1e-6));
+    return level <= 0 ? 0 : level >= im->max_value ? im->max_value : (uint32_t)level;
+}
+
+static uint16_t clamped(double v)
+{
+    return v >= 65535 ? 65535 : v > 0 ? (uint16_t)v : 0;
+}
+
+static uint16_t height_of(const Image *im, int x, int y)
+{
+    if (im->indexed)
+        return (uint16_t)(image_index(im, x, y) * 256);
+    Colour c = image_pixel(im, x, y);
+    if (im->depth != IMAGE_FLOAT && im->channels < 3)
+        return (uint16_t)((uint64_t)level_of(im, c.r) * 65535 / im->max_value);
+    if (im->depth == IMAGE_U8)                 /* POV: red is the high byte, green the low one */
+        return (uint16_t)(level_of(im, c.r) * 255 / im->max_value * 256 + level_of(im, c.g) * 255 / im->max_value);
+    float grey = 0.297f * c.r + 0.589f * c.g + 0.114f * c.b;
+    return clamped((double)(grey * 65535.0f));
+}
+
+static Range joined(Range a, Range b)
+{
+    return (Range){ a.lo < b.lo ? a.lo : b.lo, a.hi > b.hi ? a.hi : b.hi };
+}
+
+static uint32_t squares(uint32_t points, uint32_t level)
+{
+    return (points - 2 + (1u << level)) >> level;
+}
+
+static void build_pyramid(Arena *arena, Params *f)
+{
+    uint32_t level = 1, w = squares(f->w, 1), h = squares(f->h, 1);
+    Range *below = arena_array(arena, Range, (size_t)w * h);
+    f->range[1] = below;
+    for (uint32_t z = 0; z < h; z++)
+        for (uint32_t x = 0; x < w; x++) {
+            Range r = { UINT16_MAX, 0 };
+            for (uint32_t k = 2 * z; k <= 2 * z + 2 && k < f->h; k++)
+                for (uint32_t i = 2 * x; i <= 2 * x + 2 && i < f->w; i++) {
+                    uint16_t y = f->height[(size_t)k * f->w + i];
+                    r = joined(r, (Range){ y, y });
+                }
+            below[(size_t)z * w + x] = r;
+        }
+    while (w > 1 || h > 1) {
+        uint32_t nw = squares(f->w, level + 1), nh = squares(f->h, level + 1);
+        Range *above = arena_array(arena, Range, (size_t)nw * nh);
+        for (uint32_t z = 0; z < nh; z++)
+            for (uint32_t x = 0; x < nw; x++) {
+                Range r = { UINT16_MAX, 0 };
+                for (uint32_t k = 2 * z; k < 2 * z + 2 && k < h; k++)
+                    for (uint32_t i = 2 * x; i < 2 * x + 2 && i < w; i++)
+                        r = joined(r, below[(size_t)k * w + i]);
+                above[(size_t)z * nw + x] = r;
+            }
+        f->range[++level] = below = above;
+        w = nw;
+        h = nh;
+    }
+    f->top = level;
+}
+
+static void parse(Parser *p, void *params)
+{
+    Params *f = params;
+    const Image *im = parse_image(p)->image;
+    if (im->width < 2 || im->height < 2)
+        parse_fail(p, "a height_field needs at least 2 by 2 points, the image has %d by %d", im->width, im->height);
+    f->w = (uint32_t)im->width;
+    f->h = (uint32_t)im->height;
+    uint16_t *height = arena_array(parse_arena(p), uint16_t, (size_t)f->w * f->h);
+    for (uint32_t z = 0; z < f->h; z++)
+        for (uint32_t x = 0; x < f->w; x++)
+            height[(size_t)z * f->w + x] = height_of(im, (int)x, (int)(f->h - 1 - z));
+    f->height = height;
+    build_pyramid(parse_arena(p), f);
+    parse_comma(p);
+}
+
+static bool item(Parser *p, void *params)
+{
+    Params *f = params;
+    if (parse_accept(p, KW_WATER_LEVEL)) {
+        double level = parse_float(p);
+        f->water = TOP * (parse_version(p) < 200 ? level / 256 : level);
+    } else if (parse_accept(p, KW_SMOOTH))
+        f->smooth = parse_optional_bool(p, true);
+    else
+        return false;
+    parse_comma(p);
+    return true;
+}
+
+static Affine to_unit(const Params *f)
+{
+    return affine_scale(vec3(1.0 / (f->w - 1), 1.0 / TOP, 1.0 / (f->h - 1)));
+}
+
+static Bounds box_of(const Params *f)
+{
+    Range all = f->range[f->top][0];
+    return (Bounds){ vec3(0, fmax(all.lo, f->water) - SLACK, 0), vec3(f->w - 1, all.hi + SLACK, f->h - 1) };
+}
+
+static void compile(ShapeBuild *b, const void *params)
+{
+    const Params *f = params;
+    Bounds box = box_of(f);
+    if (bounds_is_empty(box))
+        return;                                /* all under water */
+    Field *out = build_data(b, sizeof *out);
+    out->map = *f;
+    out->lowest = box.lo.y;
+    out->highest = box.hi.y;
+    out->place = affine_then(to_unit(f), b->place);
+    build_prim(b, out, &out->place, shape_padded(box));
+}
+
+/* ---- along a ray ---- */
+
+typedef struct {
+    const Field *f;
+    Vec3 o, d;                                 /* from where the line enters the box */
+    double ix, iz;                             /* 1 / d, huge instead of infinite */
+    double end, start, limit;                  /* leaves the box; the part that can matter */
+    double shift;
+    HitSink *sink;
+} Line;
+
+static double at(const Params *m, uint32_t x, uint32_t z)
+{
+    return m->height[(size_t)z * m->w + x];
+}
+
+static double fraction(double x)
+{
+    return x < 0 ? 0 : x > 1 ? 1 : x;
+}
+
+/* Between two points of the map, always from the same one. */
+static double along_edge(double a, double b, double f)
+{
+    return a + f * (b - a);
+}
+
+typedef struct { double h00, h10, h01, h11; } Corners;
+
+/* On the triangle of the cell that holds (x, z), fractions. */
+static double on_cell(const Corners *c, double x, double z)
+{
+    x = fraction(x);
+    z = fraction(z);
+    return x + z < 1 ? c->h00 + x * (c->h10 - c->h00) + z * (c->h01 - c->h00)
+                     : c->h11 + (1 - x) * (c->h01 - c->h11) + (1 - z) * (c->h10 - c->h11);
+}
+
+static void straight(Line *l, double s0, double g0, double s1, double g1, uint32_t i, uint32_t k, uint32_t triangle)
+{
+    if ((g0 < 0) == (g1 < 0))
+        return;
+    double s = s0 + (s1 - s0) * (g0 / (g0 - g1));
+    if (l->o.y + s * l->d.y < l->f->lowest)
+        return;                                /* under water */
+    hit_add_uv(l->sink, l->shift + s, triangle, i, k);
+    l->limit = hit_limit(l->sink) - l->shift;
+}
+
+/* Where the line enters or leaves the cell: height over the ground. `on_x`: through a side of constant x. */
+static double over_side(const Line *l, const Corners *c, double s, bool on_x, bool far_side, uint32_t i, uint32_t k)
+{
+    double ground;
+    if (on_x) {
+        double f = fraction(l->o.z + s * l->d.z - k);
+        ground = far_side ? along_edge(c->h10, c->h11, f) : along_edge(c->h00, c->h01, f);
+    } else {
+        double f = fraction(l->o.x + s * l->d.x - i);
+        ground = far_side ? along_edge(c->h01, c->h11, f) : along_edge(c->h00, c->h10, f);
+    }
+    return l->o.y + s * l->d.y - ground;
+}
+
+static double over_cell(const Line *l, const Corners *c, double s, uint32_t i, uint32_t k)
+{
+    return l->o.y + s * l->d.y - on_cell(c, l->o.x + s * l->d.x - i, l->o.z + s * l->d.z - k);
+}
+
+static void cell_hits(Line *l, uint32_t i, uint32_t k)
+{
+    const Params *m = &l->f->map;
+    Vec3 o = l->o, d = l->d;
+    bool px = l->ix > 0, pz = l->iz > 0;
+    double x0 = (i + !px - o.x) * l->ix, x1 = (i + px - o.x) * l->ix, z0 = (k + !pz - o.z) * l->iz, z1 = (k + pz - o.z) * l->iz;
+    double s0 = fmax(x0, z0), s1 = fmin(x1, z1);
+    if (!(s0 <= s1) || s1 < 0 || s0 > l->end)
+        return;
+    Corners c = { at(m, i, k), at(m, i + 1, k), at(m, i, k + 1), at(m, i + 1, k + 1) };
+    /* Ends beyond the box would cost digits: the box, which depends on the line alone, cuts them. */
+    double g0, g1;
+    if (s0 < 0) {
+        s0 = 0;
+        g0 = over_cell(l, &c, 0, i, k);
+    } else
+        g0 = over_side(l, &c, s0, x0 >= z0, x0 >= z0 ? !px : !pz, i, k);
+    if (s1 > l->end) {
+        s1 = l->end;
+        g1 = over_cell(l, &c, s1, i, k);
+    } else
+        g1 = over_side(l, &c, s1, x1 <= z1, x1 <= z1 ? px : pz, i, k);
+    double across = d.x + d.z, cut = (i + k + 1 - (o.x + o.z)) / across;
+    if (across != 0 && cut > s0 && cut < s1) {
+        double g = o.y + cut * d.y - along_edge(c.h01, c.h10, fraction(o.x + cut * d.x - i));
+        straight(l, s0, g0, cut, g, i, k, across < 0);
+        straight(l, cut, g, s1, g1, i, k, across > 0);
+        return;
+    }
+    double middle = 0.5 * (s0 + s1);
+    straight(l, s0, g0, s1, g1, i, k, o.x + o.z + middle * across > i + k + 1);
+}
+
+typedef struct { uint32_t level, x, z; } Square;
+
+/* Conservative: a square's box is a little larger than it is. */
+static bool may_meet(const Line *l, Square q)
+{
+    static const double pad = 1e-6, y_pad = 0.01;
+    const Params *m = &l->f->map;
+    uint32_t side = 1u << q.level, ex = (q.x + 1) << q.level, ez = (q.z + 1) << q.level;
+    double xa = (ex - side - pad - l->o.x) * l->ix, xb = (fmin(ex, m->w - 1) + pad - l->o.x) * l->ix;
+    double za = (ez - side - pad - l->o.z) * l->iz, zb = (fmin(ez, m->h - 1) + pad - l->o.z) * l->iz;
+    double s0 = fmax(fmax(fmin(xa, xb), fmin(za, zb)), 0), s1 = fmin(fmin(fmax(xa, xb), fmax(za, zb)), l->end);
+    if (s0 > s1 || s1 < l->start || s0 > l->limit)
+        return false;
+    Range r = m->range[q.level][(size_t)q.z * squares(m->w, q.level) + q.x];
+    double ya = l->o.y + s0 * l->d.y, yb = l->o.y + s1 * l->d.y;
+    return fmin(ya, yb) <= r.hi + y_pad && fmax(ya, yb) >= r.lo - y_pad;
+}
+
+static void descend(Line *l)
+{
+    const Params *m = &l->f->map;
+    Square stack[3 * MOST_LEVELS + 1] = { { m->top, 0, 0 } };
+    uint32_t n = 1, near_x = l->ix < 0, near_z = l->iz < 0;
+    while (n > 0) {
+        Square q = stack[--n];
+        if (!may_meet(l, q))
+            continue;
+        uint32_t level = q.level - 1, w = level > 0 ? squares(m->w, level) : m->w - 1, h = level > 0 ? squares(m->h, level) : m->h - 1;
+        for (uint32_t c = 0; c < 4; c++) {     /* nearest first; for the stack, last */
+            uint32_t at_c = level > 0 ? 3 - c : c;
+            Square child = { level, 2 * q.x + ((at_c & 1) ^ near_x), 2 * q.z + ((at_c >> 1) ^ near_z) };
+            if (child.x >= w || child.z >= h)
+                continue;
+            if (level > 0)
+                stack[n++] = child;
+            else
+                cell_hits(l, child.x, child.z);
+        }
+    }
+}
+
+/* The whole line's part in the box. */
+static bool enter(const Field *f, const Ray *ray, double *in, double *out)
+{
+    const double lo[3] = { 0, f->lowest, 0 }, hi[3] = { f->map.w - 1, f->highest, f->map.h - 1 };
+    *in = -INFINITY;
+    *out = INFINITY;
+    for (int axis = 0; axis < 3; axis++) {
+        double o = vec3_at(ray->o, axis), d = vec3_at(ray->d, axis);
+        if (d == 0) {
+            if (o < lo[axis] || o > hi[axis])
+                return false;
+            continue;
+        }
+        double a = (lo[axis] - o) / d, b = (hi[axis] - o) / d;
+        *in = fmax(*in, fmin(a, b));
+        *out = fmin(*out, fmax(a, b));
+    }
+    return *in <= *out;
+}
+
+static double inverse(double d)
+{
+    return fabs(d) < 1e-290 ? copysign(1e290, d) : 1 / d;
+}
+
+static void hits(const void *shape, const Ray *ray, HitSink *sink)
+{
+    const Field *f = shape;
+    double in, out;
+    if (!enter(f, ray, &in, &out))
+        return;
+    Line l = { .f = f, .o = ray_at(ray, in), .d = ray->d, .ix = inverse(ray->d.x), .iz = inverse(ray->d.z), .end = out - in,
+               .start = ray->t_min - in, .limit = hit_limit(sink) - in, .shift = in, .sink = sink };
+    descend(&l);
+}
+
+/* ---- at a point ---- */
+
+static Corners corners_at(const Params *m, uint32_t i, uint32_t k)
+{
+    return (Corners){ at(m, i, k), at(m, i + 1, k), at(m, i, k + 1), at(m, i + 1, k + 1) };
+}
+
+/* POV: down to minus infinity, also under water, and the far edges are not of it. */
+static bool inside(const void *shape, Vec3 p)
+{
+    const Field *f = shape;
+    const Params *m = &f->map;
+    if (!(p.x >= 0 && p.x < m->w - 1 && p.z >= 0 && p.z < m->h - 1) || p.y >= f->highest - SLACK)
+        return false;
+    if (p.y < f->lowest)
+        return true;
+    uint32_t i = (uint32_t)p.x, k = (uint32_t)p.z;
+    Corners c = corners_at(m, i, k);
+    c = (Corners){ fmax(c.h00, m->water), fmax(c.h10, m->water), fmax(c.h01, m->water), fmax(c.h11, m->water) };
+    return p.y < on_cell(&c, p.x - i, p.z - k);
+}
+
+/* The sum of the unit normals of the triangles between p and its neighbours in x and z. POV: kept in 16 bits, in map units. */
+static Vec3 point_normal(const Params *m, uint32_t i, uint32_t k)
+{
+    static const int side[4][2] = { { 1, 1 }, { -1, 1 }, { -1, -1 }, { 1, -1 } };
+    Vec3 sum = vec3(0, 0, 0);
+    double y = at(m, i, k);
+    for (int s = 0; s < 4; s++) {
+        int64_t x = (int64_t)i + side[s][0], z = (int64_t)k + side[s][1];
+        if (x < 0 || z < 0 || x >= m->w || z >= m->h)
+            continue;
+        double dx = at(m, (uint32_t)x, k) - y, dz = at(m, i, (uint32_t)z) - y;
+        sum = add(sum, normalized(vec3(-side[s][0] * dx, 1, -side[s][1] * dz)));
+    }
+    Vec3 n = scaled(normalized(sum), 32767);
+    return vec3(trunc(n.x), trunc(n.y), trunc(n.z));
+}
+
+/* POV: the points' normals are brought to the world, each to unit length, and mixed there. */
+static Vec3 smooth_normal(const Field *f, uint32_t i, uint32_t k, Vec3 p)
+{
+    double x = fraction(p.x - i), z = fraction(p.z - k);
+    Vec3 mixed = vec3(0, 0, 0);
+    for (uint32_t c = 0; c < 4; c++) {
+        Vec3 n = normalized(affine_normal(&f->place, point_normal(&f->map, i + (c & 1), k + (c >> 1))));
+        mixed = add(mixed, scaled(n, (c & 1 ? x : 1 - x) * (c >> 1 ? z : 1 - z)));
+    }
+    return affine_normal_back(&f->place, mixed);
+}
+
+static void surface(const void *shape, const Hit *hit, Surface *out)
+{
+    const Field *f = shape;
+    uint32_t i = (uint32_t)hit->u, k = (uint32_t)hit->v;
+    Corners c = corners_at(&f->map, i, k);
+    Vec3 flat = hit->part == 0 ? vec3(c.h00 - c.h10, 1, c.h00 - c.h01) : vec3(c.h01 - c.h11, 1, c.h10 - c.h11);
+    out->normal = flat;
+    if (f->map.smooth) {
+        out->normal = smooth_normal(f, i, k, out->p);
+        out->geometric = flat;
+    }
+}
+
+static Bounds extent(const void *params, const Affine *place)
+{
+    Affine all = affine_then(to_unit(params), *place);
+    return bounds_transformed(box_of(params), &all);
+}
+
+const ShapeOps shape_height_field = {
+    .keyword = "height_field", .params_size = sizeof(Params), .flags = SHAPE_HAS_HIERARCHY | SHAPE_NO_BOX_IN_CSG, .parse = parse,
+    .item = item, .compile = compile, .hits = hits, .inside = inside, .surface = surface, .extent = extent,
+};
