@@ -1,0 +1,389 @@
+/* julia_fractal.c - julia_fractal { c [quaternion | hypercomplex] [function] ... }: a slice of a four-dimensional Julia set.
+ *
+ * A point is inside when its orbit z -> f(z) + c stays small. A ray marches through the ball that holds the set, by
+ * an estimate of the distance and at least by 1 / precision, and closes in where inside and outside change. The set has a
+ * size of its own, so lengths here are as written, and the accuracy of 1e-7 is one of the set (08-shapes, section 15). */
+#include <complex.h>
+#undef I
+
+#include "sdl/parse.h"
+#include "shape/shape.h"
+
+typedef double complex Complex;
+typedef Complex Map(Complex z, Complex exponent);
+
+typedef struct {
+    Vec4 c, slice;                             /* slice: normalised */
+    double slice_distance;
+    bool hypercomplex, cube;
+    Map *map;                                  /* hypercomplex: NULL is the square */
+    Complex exponent;                          /* of pwr */
+    int n;
+    double precision;
+} Params;
+
+typedef struct {
+    Params p;
+    double step;                               /* 1 / precision */
+    double radius, escape;                     /* of the ball; |z|^2 of what is lost */
+} Julia;
+
+enum { MOST_ITERATIONS = 10000 };
+
+static const double ACCURACY = 1e-7;
+
+/* ---- the functions ---- */
+
+static Complex map_exp(Complex z, Complex e) { (void)e; return cexp(z); }
+static Complex map_reciprocal(Complex z, Complex e) { (void)e; return 1 / z; }
+static Complex map_sin(Complex z, Complex e) { (void)e; return csin(z); }
+static Complex map_asin(Complex z, Complex e) { (void)e; return casin(z); }
+static Complex map_sinh(Complex z, Complex e) { (void)e; return csinh(z); }
+static Complex map_asinh(Complex z, Complex e) { (void)e; return casinh(z); }
+static Complex map_cos(Complex z, Complex e) { (void)e; return ccos(z); }
+static Complex map_acos(Complex z, Complex e) { (void)e; return cacos(z); }
+static Complex map_cosh(Complex z, Complex e) { (void)e; return ccosh(z); }
+static Complex map_acosh(Complex z, Complex e) { (void)e; return cacosh(z); }
+static Complex map_tan(Complex z, Complex e) { (void)e; return ctan(z); }
+static Complex map_atan(Complex z, Complex e) { (void)e; return catan(z); }
+static Complex map_tanh(Complex z, Complex e) { (void)e; return ctanh(z); }
+static Complex map_atanh(Complex z, Complex e) { (void)e; return catanh(z); }
+static Complex map_ln(Complex z, Complex e) { (void)e; return clog(z); }
+static Complex map_pwr(Complex z, Complex e) { return z == 0 ? 0 : cexp(e * clog(z)); }
+
+static const struct { int keyword; Map *map; } maps[] = {
+    { KW_EXP, map_exp }, { KW_RECIPROCAL, map_reciprocal }, { KW_SIN, map_sin }, { KW_ASIN, map_asin }, { KW_SINH, map_sinh },
+    { KW_ASINH, map_asinh }, { KW_COS, map_cos }, { KW_ACOS, map_acos }, { KW_COSH, map_cosh }, { KW_ACOSH, map_acosh },
+    { KW_TAN, map_tan }, { KW_ATAN, map_atan }, { KW_TANH, map_tanh }, { KW_ATANH, map_atanh }, { KW_LN, map_ln },
+    { KW_PWR, map_pwr },
+};
+
+static Complex complex_of(double re, double im)
+{
+    return CMPLX(re, im);
+}
+
+/* ---- parsing ---- */
+
+static void parse_slice(Parser *p, Params *j)
+{
+    Vec4 s = parse_vec4(p);
+    parse_comma(p);
+    double d = parse_float(p), len = sqrt(s.x * s.x + s.y * s.y + s.z * s.z + s.t * s.t);
+    if (!(len > 0))
+        parse_fail(p, "the slice of a julia_fractal needs a vector that is not zero");
+    j->slice = (Vec4){ s.x / len, s.y / len, s.z / len, s.t / len };
+    if (!(fabs(j->slice.t) > 1e-10))
+        parse_fail(p, "the fourth number of the slice of a julia_fractal must not be zero");
+    j->slice_distance = d / len;
+}
+
+static bool item(Parser *p, void *params)
+{
+    Params *j = params;
+    if (parse_accept(p, KW_MAX_ITERATION)) {
+        int n = parse_int(p);
+        j->n = n < 1 ? 1 : n < MOST_ITERATIONS ? n : MOST_ITERATIONS;
+        return true;
+    }
+    if (parse_accept(p, KW_PRECISION)) {
+        j->precision = fmax(1, parse_float(p));
+        return true;
+    }
+    if (parse_accept(p, KW_SLICE)) {
+        parse_slice(p, j);
+        return true;
+    }
+    if (parse_accept(p, KW_QUATERNION)) {
+        j->hypercomplex = false;
+        return true;
+    }
+    if (parse_accept(p, KW_HYPERCOMPLEX)) {
+        j->hypercomplex = true;
+        return true;
+    }
+    if (parse_accept(p, KW_SQR) || (parse_peek(p) == KW_CUBE && (parse_skip(p), j->cube = true))) {
+        j->map = NULL;
+        return true;
+    }
+    for (size_t i = 0; i < sizeof maps / sizeof *maps; i++)
+        if (parse_accept(p, maps[i].keyword)) {
+            j->map = maps[i].map;
+            if (maps[i].keyword == KW_PWR) {
+                parse_expect(p, TOK_LPAREN);
+                double x = parse_float(p), y = parse_next_float(p);
+                parse_expect(p, TOK_RPAREN);
+                j->exponent = complex_of(x, y);
+            }
+            return true;
+        }
+    return false;
+}
+
+static void parse(Parser *p, void *params)
+{
+    Params *j = params;
+    j->c = parse_vec4(p);
+    j->slice = (Vec4){ 0, 0, 0, 1 };
+    j->n = 20;
+    j->precision = 20;
+    while (item(p, j))
+        ;
+}
+
+static void finish(Parser *p, void *params)
+{
+    const Params *j = params;
+    if (!j->hypercomplex && j->map != NULL)
+        parse_fail(p, "a quaternion julia_fractal takes sqr or cube; other functions need the word hypercomplex");
+}
+
+static void bound(const Params *p, double *radius, double *escape)
+{
+    double c = sqrt(p->c.x * p->c.x + p->c.y * p->c.y + p->c.z * p->c.z + p->c.t * p->c.t);
+    *radius = p->hypercomplex ? 4 : fmin(2, 1 + c + ACCURACY);
+    *escape = p->hypercomplex ? 16 : *radius * *radius + ACCURACY;
+}
+
+static Bounds box_of(double r)
+{
+    return (Bounds){ vec3(-r, -r, -r), vec3(r, r, r) };
+}
+
+static void compile(ShapeBuild *b, const void *params)
+{
+    Julia *out = build_data(b, sizeof *out);
+    out->p = *(const Params *)params;
+    out->step = 1 / out->p.precision;
+    bound(&out->p, &out->radius, &out->escape);
+    build_prim(b, out, &b->place, shape_padded(box_of(out->radius)));
+}
+
+/* ---- orbits ---- */
+
+static double norm2(Vec4 a) { return a.x * a.x + a.y * a.y + a.z * a.z + a.t * a.t; }
+
+static Vec4 quaternion_times(Vec4 a, Vec4 b)
+{
+    return (Vec4){ a.x * b.x - a.y * b.y - a.z * b.z - a.t * b.t, a.x * b.y + a.y * b.x + a.z * b.t - a.t * b.z,
+                   a.x * b.z - a.y * b.t + a.z * b.x + a.t * b.y, a.x * b.t + a.y * b.z - a.z * b.y + a.t * b.x };
+}
+
+/* Two complex numbers on which everything hypercomplex acts alike. */
+typedef struct { Complex a, b; } Pair;
+
+static Pair pair_of(Vec4 v)
+{
+    return (Pair){ complex_of(v.x - v.t, v.y + v.z), complex_of(v.x + v.t, v.y - v.z) };
+}
+
+static Vec4 of_pair(Pair p)
+{
+    return (Vec4){ 0.5 * (creal(p.a) + creal(p.b)), 0.5 * (cimag(p.a) + cimag(p.b)), 0.5 * (cimag(p.a) - cimag(p.b)),
+                   0.5 * (creal(p.b) - creal(p.a)) };
+}
+
+/* Without C99's care for infinities: those are lost at the next test. */
+static Complex times(Complex a, Complex b)
+{
+    return complex_of(creal(a) * creal(b) - cimag(a) * cimag(b), creal(a) * cimag(b) + cimag(a) * creal(b));
+}
+
+static Vec4 hyper_times(Vec4 a, Vec4 b)
+{
+    Pair p = pair_of(a), q = pair_of(b);
+    return of_pair((Pair){ times(p.a, q.a), times(p.b, q.b) });
+}
+
+static Vec4 next(const Julia *j, Vec4 z)
+{
+    const Params *p = &j->p;
+    Vec4 f;
+    if (p->hypercomplex) {
+        Pair q = pair_of(z);
+        if (p->map == NULL)
+            q = (Pair){ times(q.a, q.a), times(q.b, q.b) };
+        else
+            q = (Pair){ p->map(q.a, p->exponent), p->map(q.b, p->exponent) };
+        f = of_pair(q);
+    } else {
+        f = (Vec4){ z.x * z.x - z.y * z.y - z.z * z.z - z.t * z.t, 2 * z.x * z.y, 2 * z.x * z.z, 2 * z.x * z.t };
+        if (p->cube)
+            f = quaternion_times(f, z);
+    }
+    return (Vec4){ f.x + p->c.x, f.y + p->c.y, f.z + p->c.z, f.t + p->c.t };
+}
+
+static Vec4 start_of(const Julia *j, Vec3 p)
+{
+    const Params *q = &j->p;
+    double w = (q->slice_distance - (q->slice.x * p.x + q->slice.y * p.y + q->slice.z * p.z)) / q->slice.t;
+    return (Vec4){ p.x, p.y, p.z, w };
+}
+
+/* POV: for all but the square the plain test starts with y in place of z. */
+static bool holds(const Julia *j, Vec3 p)
+{
+    Vec4 z = start_of(j, p);
+    if (j->p.hypercomplex && j->p.map != NULL)
+        z.z = p.y;
+    for (int i = 0; i < j->p.n; i++) {
+        if (!(norm2(z) <= j->escape))
+            return false;
+        z = next(j, z);
+    }
+    return true;
+}
+
+/* The gradient of |z_k|^2 / 2 along the orbit from z0, as the reference has it. */
+static Vec3 hyper_gradient(const Julia *j, Vec4 product, Vec4 last, int k)
+{
+    double f = j->p.map == NULL ? ldexp(1, k) : 1;
+    Vec4 m = product, z = last;
+    return scaled(vec3(m.x * z.x + m.y * z.y + m.z * z.z + m.t * z.t, -m.y * z.x + m.x * z.y - m.t * z.z + m.z * z.t,
+                       -m.z * z.x - m.t * z.y + m.x * z.z + m.y * z.t), f);
+}
+
+/* Is p inside? If not, `step` is what the ray may go on by. */
+static bool holds_or_step(const Julia *j, Vec3 p, Vec3 d, double *step)
+{
+    Vec4 z = start_of(j, p), product = { 1, 0, 0, 0 };
+    double size = 1, factor = 1, n = 0;
+    int k = 0;
+    *step = j->step;
+    for (; k < j->p.n; k++) {
+        n = norm2(z);
+        if (!(n <= j->escape))
+            break;
+        if (j->p.hypercomplex)
+            product = hyper_times(product, z);
+        else {
+            size *= sqrt(n);
+            factor *= j->p.cube ? 3 : 2;
+        }
+        z = next(j, z);
+    }
+    if (k == j->p.n)
+        return true;
+    if (!j->p.hypercomplex) {
+        double estimate = log(n) / (factor * (j->p.cube ? 3 : 2) * size);
+        if (estimate > *step && isfinite(estimate))
+            *step = estimate;
+        return false;
+    }
+    double slope = dot(hyper_gradient(j, product, z, k), d);
+    if (slope < -1e-8) {
+        double estimate = n / (-2 * slope);
+        if (estimate > j->step && estimate < 30 * j->step)
+            *step = estimate;
+    }
+    return false;
+}
+
+/* ---- along a ray ---- */
+
+static double closed_in(const Julia *j, Vec3 o, Vec3 u, double lo, double hi, bool inside_lo)
+{
+    while (hi - lo > ACCURACY) {
+        double middle = 0.5 * (lo + hi);
+        if (middle <= lo || middle >= hi)
+            break;
+        if (holds(j, add(o, scaled(u, middle))) == inside_lo)
+            lo = middle;
+        else
+            hi = middle;
+    }
+    return inside_lo ? lo : hi;                /* the inner end */
+}
+
+static void hits(const void *shape, const Ray *ray, HitSink *sink)
+{
+    const Julia *j = shape;
+    double len = length(ray->d), shift = shape_nearest_t(ray), step, previous;
+    Vec3 o = ray_at(ray, shift), u = scaled(ray->d, 1 / len);
+    double h2 = j->radius * j->radius - length2(o);
+    if (!(h2 > 0))
+        return;
+    double out = sqrt(h2), s = fmax(-out, -shift * len + ACCURACY);
+    if (!(s < out))
+        return;
+    bool inside_now = holds_or_step(j, add(o, scaled(u, s)), u, &step);
+    if (inside_now) {
+        s += 2 * ACCURACY;
+        inside_now = holds_or_step(j, add(o, scaled(u, s)), u, &step);
+    }
+    for (;;) {
+        previous = s;
+        s += step;
+        if (s > out || (previous / len) + shift > hit_limit(sink))
+            return;
+        bool now = holds_or_step(j, add(o, scaled(u, s)), u, &step);
+        if (now == inside_now)
+            continue;
+        hit_add(sink, shift + closed_in(j, o, u, previous, s, inside_now) / len, 0);
+        inside_now = now;
+    }
+}
+
+static bool inside(const void *shape, Vec3 p)
+{
+    const Julia *j = shape;
+    return length2(p) <= j->radius * j->radius && holds(j, p);
+}
+
+/* ---- at a point ---- */
+
+/* z_n and the derivatives of z_n by x, y and z, one quaternion each: d(z^2) = dz z + z dz. */
+static Vec3 quaternion_normal(const Julia *j, Vec3 p)
+{
+    Vec4 z = start_of(j, p), d[3] = { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 } };
+    for (int i = 0; i < j->p.n; i++) {
+        Vec4 z2 = quaternion_times(z, z);
+        for (int k = 0; k < 3; k++) {
+            Vec4 a = quaternion_times(d[k], z), b = quaternion_times(z, d[k]);
+            Vec4 square = { a.x + b.x, a.y + b.y, a.z + b.z, a.t + b.t };
+            if (j->p.cube) {
+                a = quaternion_times(square, z);
+                b = quaternion_times(z2, d[k]);
+                square = (Vec4){ a.x + b.x, a.y + b.y, a.z + b.z, a.t + b.t };
+            }
+            d[k] = square;
+        }
+        z = next(j, z);
+    }
+    double n[3];
+    for (int k = 0; k < 3; k++)
+        n[k] = d[k].x * z.x + d[k].y * z.y + d[k].z * z.z + d[k].t * z.t;
+    return vec3(n[0], n[1], n[2]);
+}
+
+static Vec3 hyper_normal(const Julia *j, Vec3 p)
+{
+    Vec4 z = start_of(j, p), product = { 1, 0, 0, 0 };
+    for (int i = 0; i < j->p.n; i++) {
+        product = hyper_times(product, z);
+        z = next(j, z);
+    }
+    return hyper_gradient(j, product, z, 0);
+}
+
+static void surface(const void *shape, const Hit *hit, Surface *out)
+{
+    (void)hit;
+    const Julia *j = shape;
+    Vec3 n = j->p.hypercomplex ? hyper_normal(j, out->p) : quaternion_normal(j, out->p);
+    out->normal = vec3_finite(n) && max_abs(n) > 0 ? scaled(n, 1 / max_abs(n)) : negated(out->ray_d);
+    out->error = fmax(out->error, 2 * ACCURACY);
+}
+
+static Bounds extent(const void *params, const Affine *place)
+{
+    double radius, escape;
+    bound(params, &radius, &escape);
+    return bounds_transformed(box_of(radius), place);
+}
+
+const ShapeOps shape_julia_fractal = {
+    .keyword = "julia_fractal", .params_size = sizeof(Params), .flags = SHAPE_SHARED | SHAPE_NORMAL_STAYS, .parse = parse,
+    .item = item, .finish = finish, .compile = compile, .hits = hits, .inside = inside, .surface = surface, .extent = extent,
+};
