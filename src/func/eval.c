@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "func/code.h"
+#include "math/elementary.h"
 
 #define DECLARE(isa) extern const EvalKernel eval_kernel_##isa[1];
 CPU_ISAS(DECLARE)
@@ -91,6 +92,7 @@ double code_fold(unsigned op, double a, double b, double c)
 {
     const double k = b;
     switch (op) {
+#define OWN(name, value, holds, otherwise) case name: return holds ? value : otherwise;
 #define UNARY(name, value) case name: return value;
 #define BINARY(name, value) case name: return value;
 #define TERNARY(name, value) case name: return value;

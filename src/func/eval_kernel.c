@@ -6,11 +6,15 @@
 #include <string.h>
 
 #include "func/code.h"
+#include "math/elementary.h"
 #include "math/noise.h"
 
 #ifndef LANES
 #define LANES 8
 #endif
+
+/* d may be one of the operands, but never overlaps one by part of a row. Unrolling before vectorising would spoil it. */
+#define LANE_LOOP _Pragma("GCC ivdep") _Pragma("GCC unroll 1")
 
 #define INLINE static inline __attribute__((always_inline))
 
@@ -84,14 +88,32 @@ INLINE const double *run_code(const Function *f, double *r, const int width, int
         double *d = r + i->dst * width;
         const double *x = r + i->a * width;
         switch (i->op) {
-        /* ivdep: d may be one of the operands, but never overlaps one by part of a row. */
 #define EACH(op, needs, value)                                                                                         \
     case op: {                                                                                                         \
         needs                                                                                                          \
-        _Pragma("GCC ivdep")                                                                                           \
+        LANE_LOOP                                                                                                      \
         for (int l = 0; l < width; l++) {                                                                              \
             double a = x[l];                                                                                           \
             d[l] = (value);                                                                                            \
+        }                                                                                                              \
+        break;                                                                                                         \
+    }
+#define OWN(op, value, holds, otherwise)                                                                               \
+    case op: {                                                                                                         \
+        double from[width];                                                                                            \
+        for (int l = 0; l < width; l++)                                                                                \
+            from[l] = x[l];                                                                                            \
+        int odd = 0;                                                                                                   \
+        LANE_LOOP                                                                                                      \
+        for (int l = 0; l < width; l++) {                                                                              \
+            double a = from[l];                                                                                        \
+            d[l] = value;                                                                                              \
+            odd |= !(holds);                                                                                           \
+        }                                                                                                              \
+        for (int l = 0; odd && l < width; l++) {                                                                       \
+            double a = from[l];                                                                                        \
+            if (!(holds))                                                                                              \
+                d[l] = otherwise;                                                                                      \
         }                                                                                                              \
         break;                                                                                                         \
     }
@@ -119,9 +141,14 @@ INLINE const double *run_code(const Function *f, double *r, const int width, int
 INLINE void run_rows(const Function *f, const double *const *arguments, double *out, const int width, int n, Run *run)
 {
     double r[f->n_registers * (unsigned)width] __attribute__((aligned(64)));
-    for (int k = 0; k < f->parameters; k++)
-        for (int l = 0; l < width; l++)
-            r[k * width + l] = arguments[k][l < n ? l : 0];    /* idle lanes repeat a point: no stray NaN or denormal */
+    for (int k = 0; k < f->parameters; k++) {
+        double *row = r + k * width;
+        if (n == width)
+            memcpy(row, arguments[k], sizeof *row * (size_t)width);
+        else
+            for (int l = 0; l < width; l++)    /* idle lanes repeat a point: no stray NaN or denormal */
+                row[l] = arguments[k][l < n ? l : 0];
+    }
     const double *value = run_code(f, r, width, n, run);
     for (int l = 0; l < n; l++)
         out[l] = value[l];

@@ -1,15 +1,17 @@
-/* operations.h - what each operation computes, once for folding and for every kernel: OPERATION(op, value of a, b, c). */
+/* operations.h - what each operation computes, once for folding and for every kernel: UNARY(op, value of a)...
+ *
+ * OWN(op, value, holds, otherwise): `value` where `holds`, as vector code; else `otherwise`. */
 UNARY(FUNC_NEG, -a)
 UNARY(FUNC_ABS, fabs(a))
 UNARY(FUNC_FLOOR, floor(a))
 UNARY(FUNC_CEIL, ceil(a))
 UNARY(FUNC_INT, trunc(a))
 UNARY(FUNC_SQRT, sqrt(a))
-UNARY(FUNC_EXP, exp(a))
-UNARY(FUNC_LN, log(a))
+OWN(FUNC_EXP, elementary_exp(a), elementary_exp_holds(a), exp(a))
+OWN(FUNC_LN, elementary_ln(a), elementary_ln_holds(a), log(a))
 UNARY(FUNC_LOG, log10(a))
-UNARY(FUNC_SIN, sin(a))
-UNARY(FUNC_COS, cos(a))
+OWN(FUNC_SIN, elementary_sin(a), elementary_angle_holds(a), sin(a))
+OWN(FUNC_COS, elementary_cos(a), elementary_angle_holds(a), cos(a))
 UNARY(FUNC_TAN, tan(a))
 UNARY(FUNC_ASIN, asin(a))
 UNARY(FUNC_ACOS, acos(a))
@@ -47,6 +49,7 @@ WITH_K(CODE_ADD_K, a + k)
 WITH_K(CODE_RSUB_K, k - a)
 WITH_K(CODE_MUL_K, a * k)
 WITH_K(CODE_RDIV_K, k / a)
+#undef OWN
 #undef UNARY
 #undef BINARY
 #undef TERNARY
