@@ -23,8 +23,38 @@ typedef void Run(const Function *f, const double *const *arguments, double *out,
 /* The longest sum anybody waits for. */
 static const double MAX_TURNS = 1e9;
 
+static void run_lanes(const Function *f, const double *const *arguments, double *out, int n);
+
+/* One point: the lanes take turns of the loop instead, and are added in order. */
+static void run_turns(const Instr *i, const uint16_t *argument, double *r)
+{
+    double rows[CODE_MAX_ARGUMENTS][LANES], value[LANES];
+    const double *row[CODE_MAX_ARGUMENTS];
+    int outer = i->n - 2;
+    for (int k = 0; k < outer; k++) {
+        for (int l = 0; l < LANES; l++)
+            rows[k][l] = r[argument[i->a + 2 + k]];
+        row[k] = rows[k];
+    }
+    row[outer] = rows[outer];
+    double index = r[argument[i->a]], to = r[argument[i->a + 1]], acc = i->op == FUNC_SUM ? 0 : 1;
+    for (double turn = 0; turn < MAX_TURNS && index <= to; turn += LANES) {
+        int n = 0;
+        for (; n < LANES && index <= to; n++, index += 1)
+            rows[outer][n] = index;
+        run_lanes(i->callee, row, value, n);
+        for (int l = 0; l < n; l++)
+            acc = i->op == FUNC_SUM ? acc + value[l] : acc * value[l];
+    }
+    r[i->dst] = acc;
+}
+
 INLINE void run_loop(const Instr *i, const uint16_t *argument, double *r, const int width, int n, Run *run)
 {
+    if (width == 1) {
+        run_turns(i, argument, r);
+        return;
+    }
     const double *row[CODE_MAX_ARGUMENTS];
     double *acc = r + i->dst * width, index[width], value[width], at[width], to[width];
     int outer = i->n - 2;                      /* arguments: from, to, then the outer parameters */
