@@ -224,10 +224,10 @@ Vec3 texture_layer_normal(const TextureLeaf *leaf, const Texture *layer, Vec3 n,
     at->normal = n;
     if (layer->normal == NULL || at->quality < 8)
         return n;
-    bool keep_length = layer->no_bump_scale || (leaf->frame != NULL && leaf->frame->no_bump_scale);
+    bool keep_length = layer->no_bump_scale || leaf->keep_length;
     Vec3 out = perturb(layer->normal, leaf->place, leaf->p, frames_in(leaf->frame, n), keep_length, at);
     at->normal = out;                          /* POV: what slope and aoi see is not yet carried out of the frames */
     if (keep_length || layer->normal->no_bump_scale)
         out = normalized(out);
-    return normalized(frames_out(leaf->frame, out));
+    return frames_out(leaf->frame, out);       /* POV: of another length under frames with no_bump_scale */
 }

@@ -1,7 +1,10 @@
 /* texture.c - a texture at a point as weighted stacks of plain layers.
  *
  * Every map, list, tile and average only chooses textures and weighs them; weights multiply on the way down, and the chains
- * passed are linked on the C stack for the normals of the leaves. */
+ * passed are linked for the normals of the leaves.
+ *
+ * POV: a chain once passed stays in force for the textures evaluated after it at this point, siblings too: the normals of the
+ * second texture of a blend go through the transforms of patterns inside the first. So frames are pushed and never popped. */
 #include "texture/texture.h"
 
 #include "image/image.h"
@@ -10,27 +13,32 @@
 #include "texture/map.h"
 #include "texture/sample.h"
 
+enum { FRAMES_KEPT = 48 };
+
 typedef struct Walk {
     const TextureContext *at;
     TextureVisit *visit;
     void *user;
+    const TextureFrame *top;                   /* innermost frame so far */
+    uint32_t n_frames;
+    TextureFrame frame[FRAMES_KEPT];
 } Walk;
 
-static void resolve(const Walk *w, const Texture *t, const Affine *place, Vec3 p, double weight, const TextureFrame *outer);
+static void resolve(Walk *w, const Texture *t, const Affine *place, Vec3 p, double weight, bool keep_length);
 
-static void patterned(const Walk *w, const Texture *t, Vec3 q, double weight, const TextureFrame *frame)
+static void patterned(Walk *w, const Texture *t, Vec3 q, double weight, bool keep_length)
 {
     MapSpot spot = map_find(t->map.entry, t->map.n, pattern_value(t->pattern, q, w->at));
-    resolve(w, spot.to->texture, NULL, q, weight * spot.t, frame);
+    resolve(w, spot.to->texture, NULL, q, weight * spot.t, keep_length);
     if (spot.from != NULL)
-        resolve(w, spot.from->texture, NULL, q, weight * (1 - spot.t), frame);
+        resolve(w, spot.from->texture, NULL, q, weight * (1 - spot.t), keep_length);
 }
 
-static void average(const Walk *w, const Texture *t, Vec3 q, double weight, const TextureFrame *frame)
+static void average(Walk *w, const Texture *t, Vec3 q, double weight, bool keep_length)
 {
     double total = map_total(&t->map);
     for (uint32_t i = 0; i < t->map.n; i++)
-        resolve(w, t->map.entry[i].texture, NULL, q, total != 0 ? weight * (double)t->map.entry[i].key / total : weight, frame);
+        resolve(w, t->map.entry[i].texture, NULL, q, total != 0 ? weight * (double)t->map.entry[i].key / total : weight, keep_length);
 }
 
 /* POV: an index equal to the number of textures, like any other beyond, gives the last; larger ones start again. */
@@ -50,36 +58,49 @@ static const Texture *by_tiles(const Texture *t, Vec3 q)
     return t->map.entry[fmod(sum, 2) == 0 && t->map.n > 1 ? 1 : 0].texture;
 }
 
-/* place: still to be passed by normals; p has passed it. */
-static void resolve(const Walk *w, const Texture *t, const Affine *place, Vec3 p, double weight, const TextureFrame *outer)
+/* A pattern, its chain in force. */
+static void resolve_pattern(Walk *w, const Texture *t, Vec3 p, double weight, bool keep_length)
+{
+    Vec3 q = t->pattern != NULL ? pattern_point(t->pattern, p) : p;
+    switch (t->kind) {
+    case TEXTURE_AVERAGE:
+        average(w, t, q, weight, keep_length);
+        break;
+    case TEXTURE_MATERIAL_MAP:
+        resolve(w, by_material_map(t, q), NULL, q, weight, false);     /* POV: does not hand no_bump_scale down */
+        break;
+    case TEXTURE_TILES:
+        resolve(w, by_tiles(t, q), NULL, q, weight, keep_length);
+        break;
+    default:
+        patterned(w, t, q, weight, keep_length);
+        break;
+    }
+}
+
+/* place: still to be passed by normals; p has passed it. keep_length: no_bump_scale from above. */
+static void resolve(Walk *w, const Texture *t, const Affine *place, Vec3 p, double weight, bool keep_length)
 {
     if (weight == 0)
         return;
     if (t->kind == TEXTURE_PLAIN) {
-        TextureLeaf leaf = { .top = t, .p = p, .weight = (float)weight, .place = place, .frame = outer };
+        TextureLeaf leaf = { t, p, (float)weight, place, w->top, keep_length };
         w->visit(w->user, &leaf);
         return;
     }
     if (t->kind == TEXTURE_UV) {
-        resolve(w, t->map.entry[0].texture, NULL, vec3(w->at->uv.u, w->at->uv.v, 0), weight, outer);
+        resolve(w, t->map.entry[0].texture, NULL, vec3(w->at->uv.u, w->at->uv.v, 0), weight, keep_length);
         return;
     }
-    TextureFrame frame = { t->pattern, place, t->no_bump_scale || (outer != NULL && outer->no_bump_scale), outer };
-    Vec3 q = t->pattern != NULL ? pattern_point(t->pattern, p) : p;
-    switch (t->kind) {
-    case TEXTURE_AVERAGE:
-        average(w, t, q, weight, &frame);
-        break;
-    case TEXTURE_MATERIAL_MAP:
-        resolve(w, by_material_map(t, q), NULL, q, weight, &frame);
-        break;
-    case TEXTURE_TILES:
-        resolve(w, by_tiles(t, q), NULL, q, weight, &frame);
-        break;
-    default:
-        patterned(w, t, q, weight, &frame);
-        break;
-    }
+    keep_length |= t->no_bump_scale;
+    TextureFrame frame = { t->pattern, place, keep_length, w->top };
+    bool kept = w->n_frames < FRAMES_KEPT;
+    TextureFrame *pushed = kept ? &w->frame[w->n_frames++] : &frame;
+    *pushed = frame;
+    w->top = pushed;
+    resolve_pattern(w, t, p, weight, keep_length);
+    if (!kept)
+        w->top = frame.outer;
 }
 
 void texture_resolve(const PlacedTexture *placed, Vec3 p, const TextureContext *at, TextureVisit *visit, void *user)
@@ -87,8 +108,20 @@ void texture_resolve(const PlacedTexture *placed, Vec3 p, const TextureContext *
     const Affine *place = placed->place;
     if (place != NULL && place->identity)
         place = NULL;
-    Walk w = { at, visit, user };
-    resolve(&w, placed->texture, place, place != NULL ? affine_point_back(place, p) : p, 1, NULL);
+    if (place != NULL)
+        p = affine_point_back(place, p);
+    if (placed->texture->kind == TEXTURE_PLAIN) {
+        TextureLeaf leaf = { placed->texture, p, 1, place, NULL, false };
+        visit(user, &leaf);
+        return;
+    }
+    Walk w;                                    /* only the frames in use are written */
+    w.at = at;
+    w.visit = visit;
+    w.user = user;
+    w.top = NULL;
+    w.n_frames = 0;
+    resolve(&w, placed->texture, place, p, 1, false);
 }
 
 Colour texture_layer_colour(const TextureLeaf *leaf, const Texture *layer, const TextureContext *at, bool *found)

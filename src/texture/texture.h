@@ -29,6 +29,7 @@ typedef struct TextureLeaf {
     float weight;                              /* all weights of a texture sum to 1 (unless an author's averages do not) */
     const Affine *place;                       /* carries normals of the layers, before their own chains; NULL: none */
     const TextureFrame *frame;                 /* innermost first */
+    bool keep_length;                          /* no_bump_scale of a texture above */
 } TextureLeaf;
 
 /* Called once or more; the leaf lives until it returns. */
@@ -37,8 +38,8 @@ typedef void TextureVisit(void *user, const TextureLeaf *leaf);
 /* p: scene space, or (u,v,0) for an object with uv_mapping. Leaves of weight 0 are not visited. */
 void texture_resolve(const PlacedTexture *placed, Vec3 p, const TextureContext *at, TextureVisit *visit, void *user);
 
-/* Of one layer of a leaf. The normal: n is the unit surface normal facing the ray; the result is of unit length, may point away
- * from the viewer; at->normal is set to what slope and aoi of the layer's pigment see, so ask for the normal first. A layer without a
+/* Of one layer of a leaf. The normal: n is the unit surface normal facing the ray; the result may point away from the viewer, and
+ * is of unit length but for textures with no_bump_scale round the leaf; at->normal is set to what slope and aoi of the layer's pigment see, so ask for the normal first. A layer without a
  * normal, or quality below 8, gives n. */
 Vec3 texture_layer_normal(const TextureLeaf *leaf, const Texture *layer, Vec3 n, TextureContext *at);
 Colour texture_layer_colour(const TextureLeaf *leaf, const Texture *layer, const TextureContext *at, bool *found);
