@@ -43,7 +43,7 @@ static Complex map_asinh(Complex z, Complex e) { (void)e; return casinh(z); }
 static Complex map_cos(Complex z, Complex e) { (void)e; return ccos(z); }
 static Complex map_acos(Complex z, Complex e) { (void)e; return cacos(z); }
 static Complex map_cosh(Complex z, Complex e) { (void)e; return ccosh(z); }
-static Complex map_acosh(Complex z, Complex e) { (void)e; return cacosh(z); }
+static Complex map_acosh(Complex z, Complex e) { (void)e; return clog(z + csqrt(z * z - 1)); }     /* POV: this branch */
 static Complex map_tan(Complex z, Complex e) { (void)e; return ctan(z); }
 static Complex map_atan(Complex z, Complex e) { (void)e; return catan(z); }
 static Complex map_tanh(Complex z, Complex e) { (void)e; return ctanh(z); }
@@ -75,7 +75,7 @@ static void parse_slice(Parser *p, Params *j)
     j->slice = (Vec4){ s.x / len, s.y / len, s.z / len, s.t / len };
     if (!(fabs(j->slice.t) > 1e-10))
         parse_fail(p, "the fourth number of the slice of a julia_fractal must not be zero");
-    j->slice_distance = d / len;
+    j->slice_distance = d;                     /* POV: not divided with it */
 }
 
 static bool item(Parser *p, void *params)
@@ -195,23 +195,41 @@ static Vec4 hyper_times(Vec4 a, Vec4 b)
     return of_pair((Pair){ times(p.a, q.a), times(p.b, q.b) });
 }
 
-static Vec4 next(const Julia *j, Vec4 z)
+/* What the orbit's normal takes for the derivative at z, up to a factor. POV: the value itself, but for square and reciprocal. */
+static Vec4 slope_like(const Julia *j, Vec4 z, Vec4 f)
+{
+    if (j->p.map == map_reciprocal) {
+        Vec4 s = hyper_times(f, f);
+        return (Vec4){ -s.x, -s.y, -s.z, -s.t };
+    }
+    return j->p.map == NULL ? z : f;
+}
+
+/* f(z), without the c. */
+static Vec4 mapped(const Julia *j, Vec4 z)
 {
     const Params *p = &j->p;
-    Vec4 f;
     if (p->hypercomplex) {
         Pair q = pair_of(z);
         if (p->map == NULL)
             q = (Pair){ times(q.a, q.a), times(q.b, q.b) };
         else
             q = (Pair){ p->map(q.a, p->exponent), p->map(q.b, p->exponent) };
-        f = of_pair(q);
-    } else {
-        f = (Vec4){ z.x * z.x - z.y * z.y - z.z * z.z - z.t * z.t, 2 * z.x * z.y, 2 * z.x * z.z, 2 * z.x * z.t };
-        if (p->cube)
-            f = quaternion_times(f, z);
+        return of_pair(q);
     }
-    return (Vec4){ f.x + p->c.x, f.y + p->c.y, f.z + p->c.z, f.t + p->c.t };
+    Vec4 f = { z.x * z.x - z.y * z.y - z.z * z.z - z.t * z.t, 2 * z.x * z.y, 2 * z.x * z.z, 2 * z.x * z.t };
+    return p->cube ? quaternion_times(f, z) : f;
+}
+
+static Vec4 shifted(const Julia *j, Vec4 f)
+{
+    Vec4 c = j->p.c;
+    return (Vec4){ f.x + c.x, f.y + c.y, f.z + c.z, f.t + c.t };
+}
+
+static Vec4 next(const Julia *j, Vec4 z)
+{
+    return shifted(j, mapped(j, z));
 }
 
 static Vec4 start_of(const Julia *j, Vec3 p)
@@ -221,12 +239,16 @@ static Vec4 start_of(const Julia *j, Vec3 p)
     return (Vec4){ p.x, p.y, p.z, w };
 }
 
-/* POV: for all but the square the plain test starts with y in place of z. */
+/* POV: for all functions but the square and the reciprocal the plain test, and so the normal, takes y for z as well. */
+static Vec4 plain_start(const Julia *j, Vec3 p)
+{
+    bool odd = j->p.hypercomplex && j->p.map != NULL && j->p.map != map_reciprocal;
+    return start_of(j, odd ? vec3(p.x, p.y, p.y) : p);
+}
+
 static bool holds(const Julia *j, Vec3 p)
 {
-    Vec4 z = start_of(j, p);
-    if (j->p.hypercomplex && j->p.map != NULL)
-        z.z = p.y;
+    Vec4 z = plain_start(j, p);
     for (int i = 0; i < j->p.n; i++) {
         if (!(norm2(z) <= j->escape))
             return false;
@@ -255,13 +277,14 @@ static bool holds_or_step(const Julia *j, Vec3 p, Vec3 d, double *step)
         n = norm2(z);
         if (!(n <= j->escape))
             break;
+        Vec4 f = mapped(j, z);
         if (j->p.hypercomplex)
-            product = hyper_times(product, z);
+            product = k == 0 ? z : hyper_times(product, slope_like(j, z, f));
         else {
             size *= sqrt(n);
             factor *= j->p.cube ? 3 : 2;
         }
-        z = next(j, z);
+        z = shifted(j, f);
     }
     if (k == j->p.n)
         return true;
@@ -359,10 +382,11 @@ static Vec3 quaternion_normal(const Julia *j, Vec3 p)
 
 static Vec3 hyper_normal(const Julia *j, Vec3 p)
 {
-    Vec4 z = start_of(j, p), product = { 1, 0, 0, 0 };
+    Vec4 z = plain_start(j, p), product = { 1, 0, 0, 0 };
     for (int i = 0; i < j->p.n; i++) {
-        product = hyper_times(product, z);
-        z = next(j, z);
+        Vec4 f = mapped(j, z);
+        product = i == 0 ? z : hyper_times(product, slope_like(j, z, f));
+        z = shifted(j, f);
     }
     return hyper_gradient(j, product, z, 0);
 }
