@@ -6,6 +6,7 @@
 
 #include "accel/accel.h"
 #include "base/array.h"
+#include "base/simd.h"
 
 enum {
     N_BINS = 16,
@@ -16,11 +17,13 @@ enum {
 /* Testing an item costs about this many box tests: an indirect call, and often a transform. */
 static const float ITEM_COST = 1.5f;
 
-typedef struct Box { float lo[3], hi[3]; } Box;
+typedef struct Box { f4 lo, hi; } Box;         /* the fourth of each means nothing */
 
 typedef struct Item {                          /* sorted in place: every pass over a range reads on in memory */
-    Box box;
+    float lo[3];
     uint32_t index;
+    float hi[3];
+    uint32_t unused;
 } Item;
 
 typedef struct Range {
@@ -38,34 +41,39 @@ typedef struct Builder {
 
 static Box box_none(void)
 {
-    return (Box){ { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
+    return (Box){ f4_set(INFINITY), f4_set(-INFINITY) };
 }
 
-static void box_add(Box *a, const Box *b)
+/* Bounds of items never are NaN; a NaN in the fourth place stays there. */
+static Box box_both(Box a, Box b)
 {
-    for (int i = 0; i < 3; i++) {
-        a->lo[i] = b->lo[i] < a->lo[i] ? b->lo[i] : a->lo[i];
-        a->hi[i] = b->hi[i] > a->hi[i] ? b->hi[i] : a->hi[i];
-    }
+    return (Box){ f4_min(b.lo, a.lo), f4_max(b.hi, a.hi) };
 }
 
-/* Half the surface; 0 for an empty box. Divided first: boxes may be as large as floats go. */
-static float box_area(const Box *b)
+static Box item_box(const Item *item)
 {
-    float x = b->hi[0] - b->lo[0], y = b->hi[1] - b->lo[1], z = b->hi[2] - b->lo[2];
-    return x >= 0 && y >= 0 && z >= 0 ? x * y + y * z + z * x : 0;
+    return (Box){ f4_load(item->lo), f4_load(item->hi) };
 }
 
-/* Kept finite: one odd box must not spoil the others' bins. */
-static float box_middle(const Box *b, int axis)
+/* Half the surface; 0 for an empty box. */
+static float box_area(Box b)
 {
-    float m = b->lo[axis] * 0.5f + b->hi[axis] * 0.5f;
-    return isfinite(m) ? m : 0;
+    float d[4];
+    f4_store(d, f4_sub(b.hi, b.lo));
+    return d[0] >= 0 && d[1] >= 0 && d[2] >= 0 ? d[0] * d[1] + d[1] * d[2] + d[2] * d[0] : 0;
 }
 
-static Box box_outward(const Bounds *b)
+/* Kept within floats: what is unbounded counts as far away. */
+static f4 box_middle(Box b)
 {
-    Box out;
+    f4 far = f4_set(0x1p126f), near = f4_set(-0x1p126f), half = f4_set(0.5f);
+    f4 lo = f4_mul(f4_max(f4_min(b.lo, far), near), half), hi = f4_mul(f4_max(f4_min(b.hi, far), near), half);
+    return f4_add(lo, hi);
+}
+
+static Item item_outward(const Bounds *b, uint32_t index)
+{
+    Item out = { .index = index };
     for (int i = 0; i < 3; i++) {
         float lo = float_below(vec3_at(b->lo, i)), hi = float_above(vec3_at(b->hi, i));
         out.lo[i] = lo > -INFINITY ? float_down(lo) : -INFINITY;       /* NaN too */
@@ -78,86 +86,94 @@ static Box box_outward(const Bounds *b)
 
 typedef struct Split {
     int axis;                                  /* -1: none found */
-    float lo, scale;                           /* bin = (middle - lo) * scale */
     int bin;                                   /* first bin of the right side */
     float cost;
 } Split;
 
 typedef struct Bins {
-    Box box[N_BINS];
-    uint32_t n[N_BINS];
+    int n;                                     /* per axis; fewer for few items */
+    f4 lo, scale;                              /* bin = (middle - lo) * scale */
+    Box box[3][N_BINS];
+    uint32_t count[3][N_BINS];
 } Bins;
 
-static int bin_of(float lo, float scale, float middle)
+static void bins_of(const Bins *bins, const Item *item, int out[3])
 {
-    float at = (middle - lo) * scale;
-    return at > 0 ? (int)(at < N_BINS - 1 ? at : N_BINS - 1) : 0;
-}
-
-/* The best plane between bins, if better than *best. */
-static void try_bins(const Bins *bins, uint32_t n, Split s, Split *best)
-{
-    float right_area[N_BINS];
-    Box side = box_none();
-    for (int i = N_BINS - 1; i > 0; i--) {
-        box_add(&side, &bins->box[i]);
-        right_area[i] = box_area(&side);
-    }
-    side = box_none();
-    uint32_t left = 0;
-    for (int i = 1; i < N_BINS; i++) {
-        box_add(&side, &bins->box[i - 1]);
-        left += bins->n[i - 1];
-        if (left == 0 || left == n)
-            continue;
-        float cost = box_area(&side) * (float)left + right_area[i] * (float)(n - left);
-        if (cost < best->cost) {
-            s.bin = i;
-            s.cost = cost;
-            *best = s;
-        }
-    }
-}
-
-static Split find_split(const Builder *k, const Range *r)
-{
-    Bins bins[3];
-    Split s[3], best = { .axis = -1, .cost = INFINITY };
-    for (int axis = 0; axis < 3; axis++) {
-        float lo = r->middles.lo[axis], size = r->middles.hi[axis] - lo, scale = N_BINS / size;
-        bool flat = !(size > 0) || !isfinite(scale);
-        s[axis] = (Split){ .axis = flat ? -1 : axis, .lo = lo, .scale = flat ? 0 : scale };
-        for (int i = 0; i < N_BINS; i++) {
-            bins[axis].box[i] = box_none();
-            bins[axis].n[i] = 0;
-        }
-    }
-    for (uint32_t i = r->first; i < r->first + r->n; i++) {
-        const Box *b = &k->item[i].box;
-        for (int axis = 0; axis < 3; axis++) {
-            int bin = bin_of(s[axis].lo, s[axis].scale, box_middle(b, axis));
-            bins[axis].n[bin]++;
-            box_add(&bins[axis].box[bin], b);
-        }
-    }
+    float at[4];
+    f4 most = f4_set((float)(bins->n - 1));
+    f4 bin = f4_mul(f4_sub(box_middle(item_box(item)), bins->lo), bins->scale);
+    f4_store(at, f4_max(f4_min(bin, most), f4_set(0)));
     for (int axis = 0; axis < 3; axis++)
-        if (s[axis].axis >= 0)
-            try_bins(&bins[axis], r->n, s[axis], &best);
+        out[axis] = (int)at[axis];
+}
+
+static void bins_fill(Bins *bins, const Builder *k, const Range *r)
+{
+    float size[4], scale[4] = { 0 };
+    bins->n = r->n <= 4 ? 4 : r->n <= 32 ? 8 : N_BINS;
+    bins->lo = r->middles.lo;
+    f4_store(size, f4_sub(r->middles.hi, r->middles.lo));
+    for (int axis = 0; axis < 3; axis++) {
+        scale[axis] = size[axis] > 0 ? (float)bins->n / size[axis] : 0;
+        scale[axis] = scale[axis] < INFINITY ? scale[axis] : 0;        /* all in one bin: no split on this axis */
+        for (int i = 0; i < bins->n; i++) {
+            bins->box[axis][i] = box_none();
+            bins->count[axis][i] = 0;
+        }
+    }
+    bins->scale = f4_load(scale);
+    for (uint32_t i = r->first; i < r->first + r->n; i++) {
+        Box b = item_box(&k->item[i]);
+        int bin[3];
+        bins_of(bins, &k->item[i], bin);
+        for (int axis = 0; axis < 3; axis++) {
+            bins->box[axis][bin[axis]] = box_both(bins->box[axis][bin[axis]], b);
+            bins->count[axis][bin[axis]]++;
+        }
+    }
+}
+
+/* The best plane between bins. */
+static Split find_split(const Bins *bins, uint32_t n)
+{
+    Split best = { .axis = -1, .cost = INFINITY };
+    for (int axis = 0; axis < 3; axis++) {
+        float right_area[N_BINS];
+        Box side = box_none();
+        for (int i = bins->n - 1; i > 0; i--) {
+            side = box_both(side, bins->box[axis][i]);
+            right_area[i] = box_area(side);
+        }
+        side = box_none();
+        uint32_t left = 0;
+        for (int i = 1; i < bins->n; i++) {
+            side = box_both(side, bins->box[axis][i - 1]);
+            left += bins->count[axis][i - 1];
+            if (left == 0 || left == n)
+                continue;
+            float cost = box_area(side) * (float)left + right_area[i] * (float)(n - left);
+            if (cost < best.cost)
+                best = (Split){ axis, i, cost };
+        }
+    }
     return best;
 }
 
 /* Sorts the range by sides of the plane; returns how many are left of it. */
-static uint32_t partition(const Builder *k, const Range *r, const Split *s)
+static uint32_t partition(const Builder *k, const Range *r, const Bins *bins, const Split *s)
 {
     uint32_t i = r->first, j = r->first + r->n;
-    while (i < j)
-        if (bin_of(s->lo, s->scale, box_middle(&k->item[i].box, s->axis)) < s->bin)
+    while (i < j) {
+        int bin[3];
+        bins_of(bins, &k->item[i], bin);
+        if (bin[s->axis] < s->bin)
             i++;
         else {
             Item item = k->item[i];
             k->item[i] = k->item[--j];
             k->item[j] = item;
         }
+    }
     return i - r->first;
 }
 
@@ -165,12 +181,10 @@ static Range range_of(const Builder *k, uint32_t first, uint32_t n)
 {
     Range r = { .first = first, .n = n, .box = box_none(), .middles = box_none(), .whole = n == 1 };
     for (uint32_t i = first; i < first + n; i++) {
-        const Box *b = &k->item[i].box;
-        box_add(&r.box, b);
-        Box m;
-        for (int axis = 0; axis < 3; axis++)
-            m.lo[axis] = m.hi[axis] = box_middle(b, axis);
-        box_add(&r.middles, &m);
+        Box b = item_box(&k->item[i]);
+        f4 m = box_middle(b);
+        r.box = box_both(r.box, b);
+        r.middles = box_both(r.middles, (Box){ m, m });
     }
     return r;
 }
@@ -179,16 +193,17 @@ static Range range_of(const Builder *k, uint32_t first, uint32_t n)
 static bool split(const Builder *k, Range *r, Range *other, bool binned)
 {
     Split s = { .axis = -1 };
-    if (binned)
-        s = find_split(k, r);
-    float area = box_area(&r->box);
+    Bins bins;
+    if (binned) {
+        bins_fill(&bins, k, r);
+        s = find_split(&bins, r->n);
+    }
+    float area = box_area(r->box);
     if (r->n <= LEAF_MAX && !(s.axis >= 0 && area + s.cost * ITEM_COST < area * (float)r->n * ITEM_COST)) {
         r->whole = true;
         return false;
     }
-    uint32_t first = r->first, n = r->n, left = s.axis >= 0 ? partition(k, r, &s) : n / 2;
-    if (left == 0 || left == n)
-        left = n / 2;
+    uint32_t first = r->first, n = r->n, left = s.axis >= 0 ? partition(k, r, &bins, &s) : n / 2;
     *r = range_of(k, first, left);
     *other = range_of(k, first + left, n - left);
     return true;
@@ -210,7 +225,7 @@ static int widest(const Range *range, uint32_t n, bool binned)
     int best = -1;
     float size = -1;
     for (uint32_t i = 0; i < n; i++) {
-        float s = binned ? box_area(&range[i].box) : (float)range[i].n;
+        float s = binned ? box_area(range[i].box) : (float)range[i].n;
         if (!range[i].whole && !(s <= size)) {
             best = (int)i;
             size = s;
@@ -231,9 +246,12 @@ static void build_node(Builder *k, uint32_t index, Range all, int depth)
     BvhNode node = { .n = n };
     for (uint32_t i = 0; i < n; i++) {
         const Range *r = &range[i];
+        float lo[4], hi[4];
+        f4_store(lo, r->box.lo);
+        f4_store(hi, r->box.hi);
         for (int axis = 0; axis < 3; axis++) {
-            node.lo[axis][i] = r->box.lo[axis];
-            node.hi[axis][i] = r->box.hi[axis];
+            node.lo[axis][i] = lo[axis];
+            node.hi[axis][i] = hi[axis];
         }
         bool leaf = r->whole || r->n <= LEAF_MAX;
         node.count[i] = leaf ? (uint8_t)r->n : 0;
@@ -256,7 +274,7 @@ static void *build(Arena *a, const Bounds *boxes, uint32_t n)
     b->isa = cpu_isa();
     Item *item = arena_array(&scratch, Item, n);
     for (uint32_t i = 0; i < n; i++)
-        item[i] = (Item){ box_outward(&boxes[i]), i };
+        item[i] = item_outward(&boxes[i], i);
     Builder k = { .bvh = b, .arena = &scratch, .item = item };
     build_node(&k, node_new(&k), range_of(&k, 0, n), 0);
     b->node = arena_copy(a, b->node, b->n_nodes * sizeof *b->node);

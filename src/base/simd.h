@@ -1,11 +1,45 @@
-/* simd.h - f8: eight floats at once, the same results behind every instruction set.
+/* simd.h - f4 and f8: four and eight floats at once, the same results behind every instruction set.
  *
- * Only elementwise IEEE operations, so all versions give the same bits. f8_max and f8_min return the second operand when
+ * Only elementwise IEEE operations, so all versions give the same bits. max and min return the second operand when
  * either is NaN, as SSE does. */
 #ifndef BASE_SIMD_H
 #define BASE_SIMD_H
 
 #include <stdint.h>
+
+/* ---- four at once, for code that is not built per instruction set ---- */
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+
+typedef struct f4 { __m128 v; } f4;
+
+static inline f4 f4_load(const float *p) { return (f4){ _mm_loadu_ps(p) }; }
+static inline void f4_store(float *p, f4 a) { _mm_storeu_ps(p, a.v); }
+static inline f4 f4_set(float x) { return (f4){ _mm_set1_ps(x) }; }
+static inline f4 f4_add(f4 a, f4 b) { return (f4){ _mm_add_ps(a.v, b.v) }; }
+static inline f4 f4_sub(f4 a, f4 b) { return (f4){ _mm_sub_ps(a.v, b.v) }; }
+static inline f4 f4_mul(f4 a, f4 b) { return (f4){ _mm_mul_ps(a.v, b.v) }; }
+static inline f4 f4_max(f4 a, f4 b) { return (f4){ _mm_max_ps(a.v, b.v) }; }
+static inline f4 f4_min(f4 a, f4 b) { return (f4){ _mm_min_ps(a.v, b.v) }; }
+
+#else
+
+typedef struct f4 { float v[4]; } f4;
+
+#define F4_EACH(expression) for (int i = 0; i < 4; i++) expression
+static inline f4 f4_load(const float *p) { f4 r; F4_EACH(r.v[i] = p[i]); return r; }
+static inline void f4_store(float *p, f4 a) { F4_EACH(p[i] = a.v[i]); }
+static inline f4 f4_set(float x) { f4 r; F4_EACH(r.v[i] = x); return r; }
+static inline f4 f4_add(f4 a, f4 b) { F4_EACH(a.v[i] += b.v[i]); return a; }
+static inline f4 f4_sub(f4 a, f4 b) { F4_EACH(a.v[i] -= b.v[i]); return a; }
+static inline f4 f4_mul(f4 a, f4 b) { F4_EACH(a.v[i] *= b.v[i]); return a; }
+static inline f4 f4_max(f4 a, f4 b) { F4_EACH(a.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i]); return a; }
+static inline f4 f4_min(f4 a, f4 b) { F4_EACH(a.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i]); return a; }
+
+#endif
+
+/* ---- eight at once, for kernels ---- */
 
 #if defined(__AVX__)
 #include <immintrin.h>

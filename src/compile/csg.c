@@ -163,8 +163,7 @@ void csg_reverse(Compile *c, uint32_t first_prim, uint32_t first_node)
     }
 }
 
-/* A ray that misses the bounds misses the body, so the body's leaves are looked for within their boxes, as POV-Ray does: what a
- * bound that is too small leaves outside shows only on rays that meet it. */
+/* The box of a node's bounds: all its rays pass through it. */
 static Bounds bound_box(const Compile *c, const CsgNode *node)
 {
     if (node->n == 1)
@@ -178,24 +177,32 @@ static Bounds bound_box(const Compile *c, const CsgNode *node)
     return box;
 }
 
-static void cut_item(Compile *c, uint32_t item, Bounds limit)
+/* What a bound that is too small leaves outside still shows on rays that meet the bound, so bounds cut no boxes. But a leaf that
+ * would have no finite box without them is looked for within them only: its hits outside do not count (PRIM_BOXED). */
+static void cut_item(Compile *c, uint32_t item, Bounds limit, Bounds bound)
 {
     if (!is_node(item)) {
-        c->box.data[item] = bounds_intersection(c->box.data[item], limit);
+        Bounds box = bounds_intersection(c->box.data[item], limit);
+        if (!bounds_is_finite(box) && !bounds_is_empty(box) && bounds_is_finite(bound)) {
+            box = bounds_intersection(box, bound);
+            c->prim.data[item].flags |= PRIM_BOXED;
+        }
+        c->box.data[item] = box;
         return;
     }
     const CsgNode *node = &c->csg.data[~item];
     if (node->flags & CSG_BOUND)
-        limit = bounds_intersection(limit, bound_box(c, node));
+        bound = bounds_intersection(bound, bound_box(c, node));
     else if (!(node->flags & CSG_INVERSE))
         limit = bounds_intersection(limit, node->box);
-    for (uint32_t i = 0; i < node->n; i++)
-        cut_item(c, c->csg_child.data[node->first + i], limit);
+    uint32_t n = node->flags & CSG_BOUND ? 1 : node->n;
+    for (uint32_t i = 0; i < n; i++)
+        cut_item(c, c->csg_child.data[node->first + i], limit, bound);
 }
 
 void csg_cut_boxes(Compile *c)
 {
     for (uint32_t k = 1; k < c->csg.n; k++)
         if (c->csg.data[k].parent == 0)
-            cut_item(c, ~k, bounds_everything());
+            cut_item(c, ~k, bounds_everything(), bounds_everything());
 }

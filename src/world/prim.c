@@ -134,6 +134,8 @@ static bool csg_keeps(const HitSink *sink, double t)
     const World *w = sink->world;
     Vec3 p = ray_at(sink->ray, t);
     uint32_t self = sink->prim;
+    if ((w->prim[self].flags & PRIM_BOXED) && !bounds_contain(w->box[self], p))
+        return false;
     for (uint32_t c = sink->csg; c != sink->above; c = w->csg[c].parent) {
         if (!node_keeps(w, &w->csg[c], self, sink->ray, p))
             return false;
