@@ -97,14 +97,11 @@ typedef struct Bins {
     uint32_t count[3][N_BINS];
 } Bins;
 
-static void bins_of(const Bins *bins, const Item *item, int out[3])
+static inline void bins_of(const Bins *bins, const Item *item, int32_t out[4])
 {
-    float at[4];
     f4 most = f4_set((float)(bins->n - 1));
     f4 bin = f4_mul(f4_sub(box_middle(item_box(item)), bins->lo), bins->scale);
-    f4_store(at, f4_max(f4_min(bin, most), f4_set(0)));
-    for (int axis = 0; axis < 3; axis++)
-        out[axis] = (int)at[axis];
+    f4_to_int(out, f4_max(f4_min(bin, most), f4_set(0)));
 }
 
 static void bins_fill(Bins *bins, const Builder *k, const Range *r)
@@ -124,7 +121,7 @@ static void bins_fill(Bins *bins, const Builder *k, const Range *r)
     bins->scale = f4_load(scale);
     for (uint32_t i = r->first; i < r->first + r->n; i++) {
         Box b = item_box(&k->item[i]);
-        int bin[3];
+        int32_t bin[4];
         bins_of(bins, &k->item[i], bin);
         for (int axis = 0; axis < 3; axis++) {
             bins->box[axis][bin[axis]] = box_both(bins->box[axis][bin[axis]], b);
@@ -164,7 +161,7 @@ static uint32_t partition(const Builder *k, const Range *r, const Bins *bins, co
 {
     uint32_t i = r->first, j = r->first + r->n;
     while (i < j) {
-        int bin[3];
+        int32_t bin[4];
         bins_of(bins, &k->item[i], bin);
         if (bin[s->axis] < s->bin)
             i++;
@@ -189,21 +186,26 @@ static Range range_of(const Builder *k, uint32_t first, uint32_t n)
     return r;
 }
 
+/* How many of the range go left of the best plane; 0: better left whole. */
+static uint32_t cut_by_area(const Builder *k, const Range *r)
+{
+    Bins bins;
+    bins_fill(&bins, k, r);
+    Split s = find_split(&bins, r->n);
+    float area = box_area(r->box);
+    bool pays = s.axis >= 0 && area + s.cost * ITEM_COST < area * (float)r->n * ITEM_COST;
+    if (r->n <= LEAF_MAX && !pays)
+        return 0;
+    return s.axis >= 0 ? partition(k, r, &bins, &s) : r->n / 2;
+}
+
 /* Cuts *r in two, or marks it whole. */
 static bool split(const Builder *k, Range *r, Range *other, bool binned)
 {
-    Split s = { .axis = -1 };
-    Bins bins;
-    if (binned) {
-        bins_fill(&bins, k, r);
-        s = find_split(&bins, r->n);
-    }
-    float area = box_area(r->box);
-    if (r->n <= LEAF_MAX && !(s.axis >= 0 && area + s.cost * ITEM_COST < area * (float)r->n * ITEM_COST)) {
-        r->whole = true;
+    uint32_t first = r->first, n = r->n, left = binned ? cut_by_area(k, r) : n <= LEAF_MAX ? 0 : n / 2;
+    r->whole = left == 0;
+    if (r->whole)
         return false;
-    }
-    uint32_t first = r->first, n = r->n, left = s.axis >= 0 ? partition(k, r, &bins, &s) : n / 2;
     *r = range_of(k, first, left);
     *other = range_of(k, first + left, n - left);
     return true;
