@@ -26,7 +26,8 @@ enum {
     OBJECT_UV_MAPPING = 1 << 13,
     OBJECT_GLOBAL_LIGHTS = 1 << 14,            /* light_group: members also see the global lights */
     OBJECT_BOUNDED_BY_CLIP = 1 << 15,          /* bounded_by { clipped_by }: both lists are the same */
-    OBJECT_HAS_INSIDE = 1 << 16                /* a mesh with inside_vector: no patch */
+    OBJECT_HAS_INSIDE = 1 << 16,               /* a mesh with inside_vector: no patch */
+    OBJECT_HOLDS_PATCH = 1 << 17               /* CSG: some child, at any depth, is a patch */
 };
 
 typedef struct PhotonsBlock {
@@ -43,6 +44,7 @@ struct Object {
     const LightSource *light;                  /* LIGHT */
     const Object *const *child;                /* CSG kinds and groups */
     uint32_t n_child;
+    uint32_t depth;                            /* of the tree below, clips and the like included; limited by the parser */
     const Affine *place;                       /* every transform written in the block; here and below NULL is identity */
     const Texture *texture, *interior_texture; /* top layer first; NULL: inherited, then the default texture */
     const Affine *texture_place, *interior_texture_place;      /* often the same pointer as place */

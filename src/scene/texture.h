@@ -59,6 +59,7 @@ typedef struct Pattern {
     float frequency, phase, wave_exponent;
     uint8_t noise_generator;                   /* 1..3, resolved from the scene's */
     bool scene_noise;                          /* no noise_generator was written */
+    uint16_t depth;                            /* of patterns inside, through maps, lists and functions; limited by the parser */
 } Pattern;
 
 typedef enum MapKind { MAP_NONE, MAP_COLOUR, MAP_PIGMENT, MAP_NORMAL, MAP_TEXTURE, MAP_SLOPE } MapKind;

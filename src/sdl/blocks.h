@@ -10,6 +10,11 @@
 #include "sdl/block.h"
 #include "sdl/host.h"
 
+enum {
+    MAX_OBJECT_DEPTH = 1000, MAX_PATTERN_DEPTH = 250, MAX_LAYERS = 250,        /* what is walked by recursion has a limit */
+    MAX_MEDIA = 250
+};
+
 enum { TEXTURE_CACHE = 1024, FINISH_CACHE = 64, PIECE = 64 };      /* entries; the first two powers of two */
 
 typedef struct Material {
@@ -33,6 +38,8 @@ typedef struct Blocks {
     ARRAY(const Media *) media;
     ARRAY(Pattern *) scene_noise;              /* to be told the noise generator that the scene ends with */
     struct ImageSeen *images;
+    unsigned pattern_depth;                    /* the deepest pattern met inside what is being read */
+    unsigned function_depth;                   /* ... inside any user function so far */
     Pigment *free_pigment;                     /* plain pigments and textures are cut from pieces of many: ... */
     Texture *free_texture;
     uint32_t n_free_pigments, n_free_textures; /* ... the arena would round each up */
@@ -71,12 +78,19 @@ typedef enum PatternUse { USE_PIGMENT, USE_NORMAL, USE_TEXTURE, USE_DENSITY } Pa
 
 extern const Turbulence TURBULENCE_DEFAULT;
 
+/* Around a body that may hold patterns; `depth` is that of what it became. The evaluator recurses, so there is a limit. */
+unsigned pattern_depth_begin(Parser *p);
+void pattern_depth_end(Parser *p, unsigned outer, unsigned depth);
+void pattern_depth_add(Parser *p, unsigned depth);         /* something of this depth is used in the body */
+static inline unsigned pattern_depth(const Pattern *pattern) { return pattern != NULL ? pattern->depth : 0; }
+
 const PatternOps *pattern_row(Parser *p, int keyword);     /* NULL: no pattern */
 void pattern_begin(PatternDraft *d, const Pattern *base);  /* base may be NULL */
 void pattern_choose(Parser *p, PatternDraft *d, const PatternOps *ops);    /* after its keyword */
 void pattern_list_end(Parser *p, const PatternOps *ops);   /* after its list */
 bool pattern_modifier(Parser *p, PatternDraft *d);         /* one modifier, if the next token begins one */
 const Pattern *pattern_close(Parser *p, PatternDraft *d);  /* NULL if it began from NULL and nothing was said */
+const Pattern *pattern_plain(Parser *p);       /* an empty one around what has been read in this body: of uv_mapping */
 const Pattern *pattern_moved(Parser *p, const Pattern *pattern, const Moves *moves);
 bool parse_turbulence_item(Parser *p, int keyword, Turbulence *t);         /* after turbulence, octaves, omega, lambda */
 Warp parse_warp(Parser *p);                    /* at `warp` */
@@ -99,6 +113,7 @@ const Normal *normal_body(Parser *p, const Normal *base);  /* base may be NULL *
 bool normal_is_unfinished(const Normal *n);    /* no pattern was ever written */
 const Finish *finish_block(Parser *p, const Finish *base); /* at the brace */
 const Texture *texture_body(Parser *p);
+unsigned texture_depth(const Texture *t);      /* of the patterns in its layers */
 const Texture *texture_part(Parser *p, const Texture *top);        /* at pigment, normal or finish: top with that changed */
 const Texture *texture_layered(Parser *p, const Texture *below, const Texture *above);     /* below may be NULL */
 const Texture *texture_with(Parser *p, const Texture *from, const Pigment *pigment, const Normal *normal, const Finish *finish);
@@ -126,6 +141,7 @@ Object *draft_close(Parser *p, const ObjectDraft *d);
 void object_modifiers(Parser *p, ObjectDraft *d, const char *word);        /* to the brace that closes `word` */
 const Object *object_moved(Parser *p, const Object *o, const Affine *move);
 bool object_is_patch(const Object *o);         /* has no inside */
+void draft_holds(Parser *p, ObjectDraft *d, const Object *part);   /* the depth grows with it */
 bool scene_object(Parser *p);                  /* a statement of the scene, if the next token begins an object */
 Object *light_block(Parser *p);                /* at `light_source` */
 const PhotonsBlock *photons_block(Parser *p, const PhotonsBlock *base, bool light);        /* at the brace */

@@ -400,12 +400,14 @@ static const Pattern *pattern_block(Parser *p)
         parse_fail(p, "Invalid pattern for function.");
     parse_skip(p);
     PatternDraft d;
+    unsigned outer = pattern_depth_begin(p);
     pattern_begin(&d, NULL);
     pattern_choose(p, &d, ops);
     pattern_list_end(p, ops);
     while (pattern_modifier(p, &d))
         continue;
     const Pattern *pattern = pattern_close(p, &d);
+    pattern_depth_end(p, outer, pattern->depth);
     parse_close(p);
     return pattern;
 }
@@ -422,6 +424,14 @@ static const Function *internal(Parser *p)
     return f;
 }
 
+/* Patterns may call functions that ask patterns: what uses a function from now on goes deeper by this. */
+static void function_holds(Parser *p, const Pattern *pattern)
+{
+    Blocks *b = parse_blocks(p);
+    if (pattern_depth(pattern) > b->function_depth)
+        b->function_depth = pattern_depth(pattern);
+}
+
 /* NULL, and nothing taken, if no such block comes. */
 static const Function *special(Parser *p)
 {
@@ -436,10 +446,12 @@ static const Function *special(Parser *p)
     if (kind == KW_PATTERN) {
         host.call = ask_pattern;
         ask->pattern = pattern_block(p);
+        function_holds(p, ask->pattern);
     } else if (kind == KW_PIGMENT) {
         host.call = ask_pigment;
         host.terms = 5;
         ask->pigment = parse_pigment(p);
+        function_holds(p, ask->pigment->pattern);
     } else if (kind == KW_TRANSFORM) {
         host.call = ask_transform;
         host.terms = 3;

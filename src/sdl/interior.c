@@ -61,6 +61,8 @@ static void samples(Parser *p, Media *m)
 
 static void add_density(Parser *p, Media *m, const Pigment *density)
 {
+    if (m->n_density == MAX_MEDIA)
+        parse_fail(p, "a media has at most %d densities", MAX_MEDIA);
     const Pigment **all = arena_array(parse_arena(p), const Pigment *, m->n_density + 1);
     for (uint32_t i = 0; i < m->n_density; i++)
         all[i] = m->density[i];
@@ -153,6 +155,8 @@ const Media *media_block(Parser *p)
 
 static void add_media(Parser *p, Interior *i, const Media *media)
 {
+    if (i->n_media == MAX_MEDIA)
+        parse_fail(p, "an interior has at most %d media", MAX_MEDIA);
     Media *all = arena_array(parse_arena(p), Media, i->n_media + 1);
     for (uint32_t k = 0; k < i->n_media; k++)
         all[k] = i->media[k];

@@ -64,7 +64,7 @@ static ObjectDraft attached(Parser *p, const Object *already, const char *word)
     return d;
 }
 
-static void looks_like(Parser *p, const ObjectDraft *light, LightSource *l)
+static void looks_like(Parser *p, ObjectDraft *light, LightSource *l)
 {
     ObjectDraft d = attached(p, l->looks_like, "looks_like");
     Affine move = affine_translate(l->location);
@@ -73,10 +73,11 @@ static void looks_like(Parser *p, const ObjectDraft *light, LightSource *l)
     }
     draft_move(p, &d, &move);
     d.o.flags |= OBJECT_NO_SHADOW;
+    draft_holds(p, light, &d.o);
     l->looks_like = draft_close(p, &d);
 }
 
-static void projected_through(Parser *p, const ObjectDraft *light, LightSource *l)
+static void projected_through(Parser *p, ObjectDraft *light, LightSource *l)
 {
     ObjectDraft d = attached(p, l->projected_through, "projected_through");
     if (d.o.texture != NULL || d.o.interior_texture != NULL)
@@ -89,6 +90,7 @@ static void projected_through(Parser *p, const ObjectDraft *light, LightSource *
         Affine back = affine_inverse(*light->o.place);
         draft_move(p, &d, &back);
     }
+    draft_holds(p, light, &d.o);
     l->projected_through = draft_close(p, &d);
 }
 

@@ -94,6 +94,20 @@ static BlockKind block_of(MapKind kind, PatternUse use)
     }
 }
 
+/* The items of a map that an identifier holds. */
+static void add_depths(Parser *p, const BlendMap *m)
+{
+    for (uint32_t i = 0; i < m->n; i++) {
+        const MapEntry *e = &m->entry[i];
+        if (m->kind == MAP_PIGMENT)
+            pattern_depth_add(p, pattern_depth(e->pigment->pattern));
+        else if (m->kind == MAP_NORMAL)
+            pattern_depth_add(p, pattern_depth(e->normal->pattern));
+        else if (m->kind == MAP_TEXTURE)
+            pattern_depth_add(p, texture_depth(e->texture));
+    }
+}
+
 BlendMap parse_map(Parser *p, MapKind kind, PatternUse use, bool weights)
 {
     Entries e = { 0 };
@@ -114,6 +128,8 @@ BlendMap parse_map(Parser *p, MapKind kind, PatternUse use, bool weights)
         }
     }
     block_close(p, "map");
+    if (known != NULL)
+        add_depths(p, known);
     return known != NULL ? *known : finished(&e, kind);
 }
 

@@ -80,8 +80,7 @@ static bool modifier(Parser *p, Normal *n, PatternDraft *d)
     }
 }
 
-/* base may be NULL: nothing to start from. */
-const Normal *normal_body(Parser *p, const Normal *base)
+static const Normal *body(Parser *p, const Normal *base)
 {
     const Normal *known = parse_take_block(p, BLOCK_NORMAL);
     if (known != NULL)
@@ -90,10 +89,12 @@ const Normal *normal_body(Parser *p, const Normal *base)
     if (base == NULL)
         n.amount = 0.5f;
     if (parse_accept(p, KW_UV_MAPPING)) {
+        while (parse_accept(p, KW_UV_MAPPING))
+            ;
         MapEntry *inner = arena_new(parse_arena(p), MapEntry);
         inner->normal = normal_body(p, base);
         n.kind = NORMAL_UV;
-        n.pattern = &PATTERN_PLAIN;
+        n.pattern = pattern_plain(p);
         n.map = (BlendMap){ MAP_NORMAL, 1, inner };
         return arena_copy(parse_arena(p), &n, sizeof n);
     }
@@ -107,6 +108,14 @@ const Normal *normal_body(Parser *p, const Normal *base)
         parse_fail(p, "Average must have map.");
     n.pattern = pattern_close(p, &d);
     return arena_copy(parse_arena(p), &n, sizeof n);
+}
+
+const Normal *normal_body(Parser *p, const Normal *base)
+{
+    unsigned outer = pattern_depth_begin(p);
+    const Normal *n = body(p, base);
+    pattern_depth_end(p, outer, pattern_depth(n->pattern));
+    return n;
 }
 
 const Normal *parse_normal(Parser *p)

@@ -15,10 +15,15 @@ bool object_is_patch(const Object *o)
         return o->light->looks_like == NULL;
     if (o->kind == OBJECT_SHAPE)
         return (o->ops->flags & SHAPE_PATCH) != 0 && !(o->flags & OBJECT_HAS_INSIDE);
-    for (uint32_t i = 0; i < o->n_child; i++)
-        if (object_is_patch(o->child[i]))
-            return true;
-    return false;
+    return (o->flags & OBJECT_HOLDS_PATCH) != 0;
+}
+
+void draft_holds(Parser *p, ObjectDraft *d, const Object *part)
+{
+    if (part->depth >= d->o.depth)
+        d->o.depth = part->depth + 1;
+    if (d->o.depth > MAX_OBJECT_DEPTH)
+        parse_fail(p, "objects are nested more than %d deep", MAX_OBJECT_DEPTH);
 }
 
 /* ---- transforms ---- */
@@ -98,7 +103,7 @@ static void settle_interior(Parser *p, Object *o)
 
 typedef ARRAY(const Object *) Objects;
 
-static void read_bounds(Parser *p, Objects *list, const char *word)
+static void read_bounds(Parser *p, ObjectDraft *d, Objects *list, const char *word)
 {
     const Object *part;
     Affine move;
@@ -106,6 +111,7 @@ static void read_bounds(Parser *p, Objects *list, const char *word)
     while ((part = parse_object(p)) != NULL) {
         if (part->texture != NULL || object_is_patch(part))
             parse_fail(p, "Illegal texture or patch in clip, bound or object pattern.");
+        draft_holds(p, d, part);
         array_push(parse_arena(p), list, part);
     }
     if (list->n == first)
@@ -116,12 +122,12 @@ static void read_bounds(Parser *p, Objects *list, const char *word)
     block_close(p, word);
 }
 
-static void add_bounds(Parser *p, const Object *const **to, uint32_t *n, const char *word)
+static void add_bounds(Parser *p, ObjectDraft *d, const Object *const **to, uint32_t *n, const char *word)
 {
     Objects list = { 0 };
     for (uint32_t i = 0; i < *n; i++)
         array_push(parse_arena(p), &list, (*to)[i]);
-    read_bounds(p, &list, word);
+    read_bounds(p, d, &list, word);
     *to = list.data;
     *n = list.n;
 }
@@ -132,8 +138,9 @@ static void link(Object *o)
         o->flags |= OBJECT_BOUNDED_BY_CLIP;
 }
 
-static void clipped_by(Parser *p, Object *o)
+static void clipped_by(Parser *p, ObjectDraft *d)
 {
+    Object *o = &d->o;
     block_open(p, "clipped_by");
     if (parse_accept(p, KW_BOUNDED_BY)) {
         if (o->n_clipped_by > 0)
@@ -146,11 +153,12 @@ static void clipped_by(Parser *p, Object *o)
     }
     if (o->flags & OBJECT_BOUNDED_BY_CLIP)
         parse_fail(p, "Cannot add clips after linking bounds and clips.");
-    add_bounds(p, &o->clipped_by, &o->n_clipped_by, "clipped_by");
+    add_bounds(p, d, &o->clipped_by, &o->n_clipped_by, "clipped_by");
 }
 
-static void bounded_by(Parser *p, Object *o)
+static void bounded_by(Parser *p, ObjectDraft *d)
 {
+    Object *o = &d->o;
     block_open(p, "bounded_by");
     if (parse_accept(p, KW_CLIPPED_BY)) {
         if (o->n_bounded_by > 0)
@@ -163,7 +171,7 @@ static void bounded_by(Parser *p, Object *o)
     }
     if (o->flags & OBJECT_BOUNDED_BY_CLIP)
         parse_fail(p, "Cannot add bounds after linking bounds and clips.");
-    add_bounds(p, &o->bounded_by, &o->n_bounded_by, "bounded_by");
+    add_bounds(p, d, &o->bounded_by, &o->n_bounded_by, "bounded_by");
 }
 
 /* ---- modifiers ---- */
@@ -288,8 +296,9 @@ static void invert(Parser *p, Object *o)
     o->flags ^= OBJECT_INVERSE;
 }
 
-static bool plain_modifier(Parser *p, Object *o, int keyword)
+static bool plain_modifier(Parser *p, ObjectDraft *d, int keyword)
 {
+    Object *o = &d->o;
     switch (keyword) {
     case KW_INVERSE: parse_skip(p); invert(p, o); return true;
     case KW_HOLLOW: flag_item(p, o, OBJECT_HOLLOW); o->flags |= OBJECT_HOLLOW_SET; return true;
@@ -302,8 +311,8 @@ static bool plain_modifier(Parser *p, Object *o, int keyword)
     case KW_SPLIT_UNION: case KW_CUTAWAY_TEXTURES: csg_flag(p, o, keyword); return true;
     case KW_PHOTONS: parse_skip(p); o->photons = photons_block(p, o->photons, false); return true;
     case KW_RADIOSITY: parse_skip(p); radiosity(p, o); return true;
-    case KW_CLIPPED_BY: parse_skip(p); clipped_by(p, o); return true;
-    case KW_BOUNDED_BY: parse_skip(p); bounded_by(p, o); return true;
+    case KW_CLIPPED_BY: parse_skip(p); clipped_by(p, d); return true;
+    case KW_BOUNDED_BY: parse_skip(p); bounded_by(p, d); return true;
     case KW_DTAG: parse_skip(p); (void)parse_string(p); return true;
     case KW_LIGHT_SOURCE: parse_fail(p, "Light source must be defined using new syntax.");
     case KW_GLOBAL_LIGHTS:
@@ -352,7 +361,7 @@ static void modifiers(Parser *p, ObjectDraft *d, const char *word, const ShapeOp
                 o->flags |= OBJECT_HAS_INSIDE;
         } else if (parse_move(p, &move)) {
             draft_move(p, d, &move);
-        } else if (!(o->kind != OBJECT_LIGHT_GROUP && texture_item(p, o, keyword)) && !plain_modifier(p, o, keyword)) {
+        } else if (!(o->kind != OBJECT_LIGHT_GROUP && texture_item(p, o, keyword)) && !plain_modifier(p, d, keyword)) {
             if (!parse_at_colour(p))
                 break;
             parse_warn(p, "Quick color belongs in texture. Color ignored.");
@@ -412,15 +421,20 @@ static Object *csg(Parser *p, ObjectKind kind)
     Objects list = { 0 };
     const Object *child;
     bool patch = false;
+    ObjectDraft d = { .o = { .kind = kind, .loc = loc } };
     while ((child = parse_object(p)) != NULL) {
         array_push(parse_arena(p), &list, child);
+        draft_holds(p, &d, child);
         patch |= child->kind == OBJECT_SHAPE && object_is_patch(child);
+        if (object_is_patch(child))
+            d.o.flags |= OBJECT_HOLDS_PATCH;
     }
     if (list.n < 2 && kind != OBJECT_LIGHT_GROUP)
         parse_warn(p, "Should have at least 2 objects in csg.");
     if (patch && (kind == OBJECT_INTERSECTION || kind == OBJECT_DIFFERENCE))
         parse_warn(p, "Patch objects not allowed in intersection.");
-    ObjectDraft d = { .o = { .kind = kind, .loc = loc, .child = list.data, .n_child = list.n } };
+    d.o.child = list.data;
+    d.o.n_child = list.n;
     modifiers(p, &d, kind_word[kind], NULL, NULL);
     return draft_close(p, &d);
 }

@@ -8,6 +8,35 @@
 
 const Turbulence TURBULENCE_DEFAULT = { .octaves = 6, .omega = 0.5f, .lambda = 2 };
 
+unsigned pattern_depth_begin(Parser *p)
+{
+    Blocks *b = parse_blocks(p);
+    unsigned outer = b->pattern_depth;
+    b->pattern_depth = 0;
+    return outer;
+}
+
+void pattern_depth_end(Parser *p, unsigned outer, unsigned depth)
+{
+    parse_blocks(p)->pattern_depth = depth > outer ? depth : outer;
+}
+
+void pattern_depth_add(Parser *p, unsigned depth)
+{
+    Blocks *b = parse_blocks(p);
+    if (depth > b->pattern_depth)
+        b->pattern_depth = depth;
+}
+
+/* The depth of a pattern closed now. */
+static uint16_t depth_here(Parser *p)
+{
+    unsigned depth = parse_blocks(p)->pattern_depth + 1;
+    if (depth > MAX_PATTERN_DEPTH)
+        parse_fail(p, "patterns are nested more than %d deep", MAX_PATTERN_DEPTH);
+    return (uint16_t)depth;
+}
+
 void pattern_begin(PatternDraft *d, const Pattern *base)
 {
     if (base != NULL)
@@ -65,6 +94,8 @@ static void push_move(Arena *a, PatternDraft *d, const Affine *move)
 void pattern_choose(Parser *p, PatternDraft *d, const PatternOps *ops)
 {
     void *params = arena_alloc(parse_arena(p), ops->params_size);
+    if (strcmp(ops->keyword, "function") == 0 || strcmp(ops->keyword, "object") == 0)
+        pattern_depth_add(p, parse_blocks(p)->function_depth);     /* it may reach any function so far */
     if (ops->parse != NULL)
         ops->parse(p, params);
     d->pattern.ops = ops;
@@ -231,7 +262,16 @@ const Pattern *pattern_close(Parser *p, PatternDraft *d)
     if (!d->changed)
         return d->base;
     flush(parse_arena(p), d);
+    if (d->pattern.depth > 1)
+        pattern_depth_add(p, d->pattern.depth - 1u);
+    d->pattern.depth = depth_here(p);
     return keep(p, &d->pattern);
+}
+
+const Pattern *pattern_plain(Parser *p)
+{
+    Pattern plain = { .frequency = 1, .wave_exponent = 1, .noise_generator = 2, .depth = depth_here(p) };
+    return arena_copy(parse_arena(p), &plain, sizeof plain);
 }
 
 const Pattern *pattern_moved(Parser *p, const Pattern *pattern, const Moves *moves)
@@ -240,7 +280,8 @@ const Pattern *pattern_moved(Parser *p, const Pattern *pattern, const Moves *mov
     pattern_begin(&d, pattern);
     for (unsigned i = 0; i < moves->n; i++)
         push_move(parse_arena(p), &d, &moves->move[i]);
-    return pattern_close(p, &d);
+    flush(parse_arena(p), &d);
+    return keep(p, &d.pattern);
 }
 
 /* `object { O list }`: the list stands inside the braces that the row's parse has opened. */

@@ -6,7 +6,6 @@
 
 #include <string.h>
 
-static const Pattern PATTERN_PLAIN = { .frequency = 1, .wave_exponent = 1, .noise_generator = 2 };
 const Pigment PIGMENT_EMPTY = { .kind = PIGMENT_PLAIN };
 
 static const MapEntry grey[] = { { .key = 0, .colour = { 0 } }, { .key = 1, .colour = { 1, 1, 1, 0, 0 } } };
@@ -155,22 +154,24 @@ static const Pigment *close_body(Parser *p, Pigment *g, PatternDraft *d, const P
         set_default_map(g, d);
     g->pattern = pattern_close(p, d);
     if (g->pattern == NULL)
-        g->pattern = &PATTERN_PLAIN;
+        g->pattern = pattern_plain(p);
     if (memcmp(g, base, sizeof *g) == 0)
         return base;
     return arena_copy(parse_arena(p), g, sizeof *g);
 }
 
-const Pigment *pigment_body(Parser *p, const Pigment *base, PatternUse use)
+static const Pigment *body(Parser *p, const Pigment *base, PatternUse use)
 {
     const Pigment *known = parse_take_block(p, use == USE_DENSITY ? BLOCK_DENSITY : BLOCK_PIGMENT);
     if (known != NULL)
         base = known;
     if (parse_accept(p, KW_UV_MAPPING)) {
+        while (parse_accept(p, KW_UV_MAPPING))
+            ;
         MapEntry *inner = arena_new(parse_arena(p), MapEntry);
         inner->pigment = pigment_body(p, base, use);
         Pigment *uv = arena_new(parse_arena(p), Pigment);
-        *uv = (Pigment){ .kind = PIGMENT_UV, .pattern = &PATTERN_PLAIN, .map = { MAP_PIGMENT, 1, inner } };
+        *uv = (Pigment){ .kind = PIGMENT_UV, .pattern = pattern_plain(p), .map = { MAP_PIGMENT, 1, inner } };
         return uv;
     }
     Pigment g = *base;
@@ -181,6 +182,14 @@ const Pigment *pigment_body(Parser *p, const Pigment *base, PatternUse use)
     while (modifier(p, &g, &d, use))
         ;
     return close_body(p, &g, &d, base);
+}
+
+const Pigment *pigment_body(Parser *p, const Pigment *base, PatternUse use)
+{
+    unsigned outer = pattern_depth_begin(p);
+    const Pigment *g = body(p, base, use);
+    pattern_depth_end(p, outer, pattern_depth(g->pattern));
+    return g;
 }
 
 const Pigment *parse_pigment(Parser *p)

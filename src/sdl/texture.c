@@ -5,8 +5,6 @@
 
 #include "sdl/parser.h"
 
-static const Pattern PATTERN_PLAIN = { .frequency = 1, .wave_exponent = 1, .noise_generator = 2 };
-
 /* Plain single layers by their parts; the newest stays. */
 static const Texture *keep(Parser *p, const Texture *t)
 {
@@ -70,10 +68,20 @@ static Pigment filter_to_transmit(Parser *p, const Pigment *from)
     return g;
 }
 
+static unsigned count_layers(const Texture *t)
+{
+    unsigned n = 0;
+    for (; t != NULL; t = t->below)
+        n++;
+    return n;
+}
+
 const Texture *texture_layered(Parser *p, const Texture *below, const Texture *above)
 {
     if (below == NULL)
         return above;
+    if (count_layers(below) + count_layers(above) > MAX_LAYERS)
+        parse_fail(p, "a texture has at most %d layers", MAX_LAYERS);
     if (below->kind != TEXTURE_PLAIN)
         parse_fail(p, "Cannot layer over a patterned texture.");
     if (above->kind != TEXTURE_PLAIN)
@@ -228,7 +236,7 @@ static const Texture *close_patterned(Parser *p, Texture *t, PatternDraft *d)
         parse_fail(p, "Patterned texture must have texture_map.");
     t->pattern = pattern_close(p, d);
     if (t->pattern == NULL)
-        t->pattern = &PATTERN_PLAIN;
+        t->pattern = pattern_plain(p);
     return arena_copy(parse_arena(p), t, sizeof *t);
 }
 
@@ -285,11 +293,12 @@ static const Texture *patterned(Parser *p)
     case KW_MATERIAL_MAP: parse_skip(p); t.kind = TEXTURE_MATERIAL_MAP; material_map(p, &t); break;
     case KW_AVERAGE: parse_skip(p); t.kind = TEXTURE_AVERAGE; break;
     case KW_UV_MAPPING: {
-        parse_skip(p);
+        while (parse_accept(p, KW_UV_MAPPING))
+            ;
         MapEntry *inner = arena_new(parse_arena(p), MapEntry);
         inner->texture = texture_body(p);
         t.kind = TEXTURE_UV;
-        t.pattern = &PATTERN_PLAIN;
+        t.pattern = pattern_plain(p);
         t.map = (BlendMap){ MAP_TEXTURE, 1, inner };
         return arena_copy(parse_arena(p), &t, sizeof t);
     }
@@ -320,7 +329,7 @@ static const Texture *patterned_items(Parser *p, const Texture *t)
     }
 }
 
-const Texture *texture_body(Parser *p)
+static const Texture *body(Parser *p)
 {
     const Texture *t = parse_take_block(p, BLOCK_TEXTURE);
     if (t != NULL && t->kind != TEXTURE_PLAIN)
@@ -334,6 +343,26 @@ const Texture *texture_body(Parser *p)
         return t;
     const Texture *other = patterned(p);
     return other != NULL ? other : t;
+}
+
+unsigned texture_depth(const Texture *t)
+{
+    unsigned depth = 0;
+    for (; t != NULL; t = t->below) {
+        unsigned of_layer = pattern_depth(t->pattern), of_normal = t->normal != NULL ? pattern_depth(t->normal->pattern) : 0;
+        if (t->kind == TEXTURE_PLAIN)
+            of_layer = pattern_depth(t->pigment->pattern) > of_normal ? pattern_depth(t->pigment->pattern) : of_normal;
+        depth = of_layer > depth ? of_layer : depth;
+    }
+    return depth;
+}
+
+const Texture *texture_body(Parser *p)
+{
+    unsigned outer = pattern_depth_begin(p);
+    const Texture *t = body(p);
+    pattern_depth_end(p, outer, texture_depth(t));
+    return t;
 }
 
 const Texture *parse_texture(Parser *p)

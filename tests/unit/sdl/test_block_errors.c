@@ -308,6 +308,32 @@ static const Row warned[] = {
       "Camera vectors are not perpendicular. Making look_at the last statement may help." },
 };
 
+/* Loops that would nest without end: refused before somebody's recursion meets the end of the stack. */
+static const Row endless[] = {
+    { "#declare P = pigment { rgb 1 } #while (1) #declare P = pigment { pigment_pattern { P } } #end",
+      "patterns are nested more than 250 deep" },
+    { "#declare P = pigment { rgb 1 } #while (1) #declare P = pigment { bozo pigment_map { [0 P] [1 rgb 1] } } #end",
+      "patterns are nested more than 250 deep" },
+    { "#declare M = pigment_map { [0 rgb 1] } #while (1) #declare M = pigment_map { [0 bozo pigment_map { M }] } #end",
+      "patterns are nested more than 250 deep" },
+    { "#declare N = normal { bumps } #while (1) #declare N = normal { checker normal { N } normal { N } } #end",
+      "patterns are nested more than 250 deep" },
+    { "#declare T = texture { pigment { rgb 1 } } #while (1) #declare T = texture { bozo texture_map { [0 T] } } #end",
+      "patterns are nested more than 250 deep" },
+    { "#declare T = texture { pigment { rgb 1 } } #while (1) #declare T = texture { T } texture { T } #end",
+      "a texture has at most 250 layers" },
+    { "#declare P = pigment { rgb 1 } #while (1) #declare F = function { pigment { P } } #declare P = pigment { function { F(x,y,z).x } } #undef F #end",
+      "patterns are nested more than 250 deep" },
+    { "#declare O = sphere { 0, 1 } #while (1) #declare O = union { object { O } sphere { 0, 1 } } #end",
+      "objects are nested more than 1000 deep" },
+    { "#declare O = sphere { 0, 1 } #while (1) #declare O = sphere { 0, 1 clipped_by { O } } #end",
+      "objects are nested more than 1000 deep" },
+    { "#declare O = sphere { 0, 1 } #while (1) #declare O = light_source { 0, 1 looks_like { O } } #end",
+      "objects are nested more than 1000 deep" },
+    { "#declare M = media { } #while (1) #declare M = media { M density { rgb 1 } } #end",
+      "a media has at most 250 densities" },
+};
+
 static Parsed *scene_of(const Row *row)
 {
     char text[512];
@@ -337,11 +363,36 @@ static void odd_blocks_are_taken_with_a_warning(void **state)
     }
 }
 
+static void endless_nesting_is_refused(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof endless / sizeof *endless; i++) {
+        Parsed *s = scene_of(&endless[i]);
+        if (!s->failed || !said(s, DIAG_ERROR, endless[i].message))
+            fail_msg("%s\nexpected: %s", endless[i].scene, endless[i].message);
+        parsed_free(s);
+    }
+}
+
+static void changing_an_identifier_again_and_again_is_no_nesting(void **state)
+{
+    (void)state;
+    const Row row = { "#declare P = pigment { bozo } #declare N = normal { bumps } #declare T = texture { pigment { bozo } } "
+                      "#declare O = sphere { 0, 1 } #for (I, 1, 2000) #declare P = pigment { P scale 1.001 } "
+                      "#declare N = normal { N scale 1.001 } #declare T = texture { T scale 1.001 } "
+                      "#declare O = object { O translate x*0.001 } #end", "" };
+    Parsed *s = scene_of(&row);
+    assert_false(s->failed);
+    parsed_free(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wrong_blocks_are_refused_in_the_reference_s_words),
         cmocka_unit_test(odd_blocks_are_taken_with_a_warning),
+        cmocka_unit_test(endless_nesting_is_refused),
+        cmocka_unit_test(changing_an_identifier_again_and_again_is_no_nesting),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
