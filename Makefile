@@ -112,11 +112,25 @@ bench: $(BUILD)/whit
 corpus: $(BUILD)/whit
 	@BUILD=$(BUILD) tests/corpus $(CORPUS)
 
+# The parser against libFuzzer (needs clang) for FUZZ_TIME seconds; findings and the grown corpus stay in build/fuzz/.
+FUZZ_TIME ?= 60
+FUZZ := $(BUILD)/fuzz
+FUZZ_FLAGS := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined
+
+fuzz:
+	+@$(MAKE) --no-print-directory BUILD=$(FUZZ) CC=clang CFLAGS="$(FUZZ_FLAGS) -fsanitize=fuzzer-no-link -w" $(FUZZ)/libwhit.a
+	clang $(STD) $(FUZZ_FLAGS) -fsanitize=fuzzer -o $(FUZZ)/fuzz_parse tests/fuzz/fuzz_parse.c $(FUZZ)/libwhit.a $(LIBS)
+	@mkdir -p $(FUZZ)/corpus $(FUZZ)/found $(FUZZ)/work
+	@tests/fuzz/make-seeds $(FUZZ)/seeds
+	@sed -n 's/^KEYWORD(\([a-z0-9_]*\),.*/"\1"/p' src/sdl/keyword.def > $(FUZZ)/words
+	cd $(FUZZ)/work && ../fuzz_parse -max_total_time=$(FUZZ_TIME) -timeout=10 -rss_limit_mb=2000 -max_len=8192 -dict=../words \
+	    -artifact_prefix=../found/ ../corpus ../seeds
+
 
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: bench all unit check check-only layers demo reference corpus clean
+.PHONY: bench fuzz all unit check check-only layers demo reference corpus clean
 .SECONDARY: $(TEST_LIB)
 
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)

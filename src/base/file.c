@@ -162,7 +162,7 @@ Str file_folder(Str path)
 Str file_base_name(Str path)
 {
     uint32_t n = file_folder(path).n;
-    return (Str){ path.data + n, path.n - n };
+    return n ? (Str){ path.data + n, path.n - n } : path;
 }
 
 Str file_join(Arena *a, Str folder, Str name)

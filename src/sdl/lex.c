@@ -37,6 +37,8 @@ static inline unsigned char class_at(const char *s)
 
 void lex_start(Lexer *l, uint16_t source, Str text)
 {
+    if (!text.n)
+        text = str_of("");                     /* no arithmetic on NULL */
     *l = (Lexer){ .at = text.data, .end = text.data + text.n, .line_start = text.data, .line = 1, .source = source };
     if (text.n >= 3 && memcmp(text.data, "\xef\xbb\xbf", 3) == 0)
         l->at += 3;

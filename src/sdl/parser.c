@@ -6,6 +6,9 @@
 static void temp_is_full(void *user)
 {
     Parser *p = user;
+    if (p->arena->out_of_memory)               /* the owner of the arena knows what to say */
+        p->arena->out_of_memory(p->arena->user);
+    p->arena->limit = 0;
     fail_io(p->diag, (Loc){ 0 }, "out of memory while reading the scene");
 }
 

@@ -9,6 +9,10 @@
 #include "sdl/parse.h"
 #include "shape/shape.h"
 
+#ifndef CMPLX                                  /* clang with glibc before 2.36 */
+#define CMPLX(re, im) __builtin_complex((double)(re), (double)(im))
+#endif
+
 typedef double complex Complex;
 typedef Complex Map(Complex z, Complex exponent);
 
