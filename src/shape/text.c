@@ -12,7 +12,7 @@
 #include <fontconfig/fontconfig.h>
 #endif
 
-typedef struct { const Curve *outline; Vec2 at, lo, hi; } Letter;      /* the box that the font states */
+typedef struct { const Curve *outline; Vec2 at, lo, hi; } Letter;      /* outline: NULL for blanks; the box that the font states */
 typedef struct { const Letter *letter; uint32_t n; double thickness; } Params;
 typedef struct { Curve outline; double thickness, slack; } Glyph;
 
@@ -193,8 +193,8 @@ static void lay_out(Parser *p, const Ttf *t, Str text, Vec3 offset, Params *out)
             at.v += kern.across;
             pen.u += advance + kern.along;
         }
-        if (c != ' ' && s->outline->n > 0)
-            letter[n++] = (Letter){ s->outline, at, s->glyph.lo, s->glyph.hi };
+        bool blank = c == ' ' || s->outline->n == 0;       /* only the extent knows of it */
+        letter[n++] = blank ? (Letter){ .at = at } : (Letter){ s->outline, at, s->glyph.lo, s->glyph.hi };
         pen = (Vec2){ pen.u + offset.x, pen.v + offset.y };
         previous = m;
     }
@@ -241,9 +241,10 @@ static void compile(ShapeBuild *b, const void *params)
 {
     const Params *t = params;
     for (uint32_t i = 0; i < t->n; i++) {
-        Glyph *out = NULL;
+        if (t->letter[i].outline == NULL)
+            continue;
         Bounds box = box_of(t->letter[i].outline, t->thickness);
-        out = build_data(b, sizeof *out);
+        Glyph *out = build_data(b, sizeof *out);
         *out = (Glyph){ .outline = *t->letter[i].outline, .thickness = t->thickness };
         out->slack = 4 * DBL_EPSILON * fabs(t->thickness);
         Affine place = affine_then(letter_place(&t->letter[i]), b->place);

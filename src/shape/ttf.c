@@ -349,6 +349,7 @@ static void add_glyph(Outline *o, uint32_t glyph, const Map *map, int depth)
         add_composite(o, glyph, at, map, depth);
 }
 
+/* POV: headers that are too small are widened by the points of simple glyphs. */
 TtfGlyph ttf_glyph(const Ttf *t, Arena *arena, uint32_t glyph)
 {
     static const Map as_it_is = { { 1, 0, 0, 0, 1, 0 } };
@@ -359,6 +360,11 @@ TtfGlyph ttf_glyph(const Ttf *t, Arena *arena, uint32_t glyph)
     if (n >= 10) {
         g.lo = (Vec2){ t->em * i16(t, at + 2), t->em * i16(t, at + 4) };
         g.hi = (Vec2){ t->em * i16(t, at + 6), t->em * i16(t, at + 8) };
+        for (uint32_t i = 0; i < g.outline.n && i16(t, at) >= 0; i++) {
+            const CurvePiece *c = &g.outline.piece[i];
+            g.lo = (Vec2){ fmin(g.lo.u, c->lo.u), fmin(g.lo.v, c->lo.v) };
+            g.hi = (Vec2){ fmax(g.hi.u, c->hi.u), fmax(g.hi.v, c->hi.v) };
+        }
     }
     return g;
 }

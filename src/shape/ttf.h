@@ -20,7 +20,7 @@ typedef struct Ttf {
 
 typedef struct TtfGlyph {
     Curve outline;                             /* in ems; n = 0 for blanks */
-    Vec2 lo, hi;                               /* the box that its header states, in ems */
+    Vec2 lo, hi;                               /* its box, in ems */
     uint32_t metrics;                          /* the glyph whose advance, bearing and kerning are meant */
 } TtfGlyph;
 
