@@ -1,6 +1,9 @@
-/* roots.c - real roots by Descartes' rule of signs in the Bernstein basis; see roots.h.
+/* roots.c - real roots: between turning points up to degree four, by Descartes' rule in the Bernstein basis above; see roots.h.
  *
- * On an interval mapped to [0, 1] the polynomial is written as a weighted mean of n + 1 coefficients. The number of their
+ * Between two turning points there is at most one root, and it shows in the signs of the values there. The turning points
+ * are the roots of the derivative, down to a quadratic.
+ *
+ * Higher degrees: on an interval mapped to [0, 1] the polynomial is written as a weighted mean of n + 1 coefficients. The number of their
  * sign changes is the number of roots, or more by an even number: none means none, one means one, and otherwise de
  * Casteljau's halving makes two smaller problems (Lane and Riesenfeld, Bounds on a Polynomial, 1981). All steps are
  * means, so rounding stays at the size of the coefficients: a Sturm chain, which divides remainders, loses everything
@@ -79,15 +82,16 @@ static int sign_changes(const double *b, int n)
     return changes;
 }
 
-/* One root between u0 and u1: falling says on which side of it the values are positive. */
-static double closed_in(const Search *s, double u0, double u1, bool falling)
+/* The root between u0 and u1, sought from a guess, where falling says on which side of it the values are positive, to within `tolerance` or the
+ * last bit of the root itself. */
+static double closed_in(const double *a, int n, double u0, double u1, bool falling, double guess, double tolerance)
 {
-    double u = 0.5 * (u0 + u1), last = u1 - u0;
-    for (int i = 0; i < 100; i++) {
-        double f = s->a[s->n], slope = 0;
-        for (int k = s->n - 1; k >= 0; k--) {
+    double u = guess > u0 && guess < u1 ? guess : 0.5 * (u0 + u1), last = u1 - u0;
+    for (int i = 0; i < 120; i++) {
+        double f = a[n], slope = 0;
+        for (int k = n - 1; k >= 0; k--) {
             slope = slope * u + f;
-            f = f * u + s->a[k];
+            f = f * u + a[k];
         }
         if (f == 0)
             return u;
@@ -95,16 +99,158 @@ static double closed_in(const Search *s, double u0, double u1, bool falling)
             u0 = u;
         else
             u1 = u;
-        double next = u - f / slope;
-        if (!(next > u0 && next < u1) || fabs(next - u) > 0.5 * last)
+        double next = u - f / slope, before = last;
+        bool newton = next > u0 && next < u1 && fabs(next - u) <= 0.5 * last;
+        if (!newton)
             next = 0.5 * (u0 + u1);            /* Newton leaves the bracket or dawdles: halve it */
         last = fabs(next - u);
-        if (next == u || last <= 0.5 * DBL_EPSILON * fabs(u))
+        /* Steps shrink as their squares: the coming one would be about last^3 / before^2. */
+        double coming = newton ? last * last * last : last * before * before;
+        if (coming <= before * before * (tolerance + DBL_EPSILON * fabs(u)))
             return next;
         u = next;
     }
     return u;
 }
+
+/* ---- degrees up to four: between the turning points there is at most one root ---- */
+
+/* Is the value at x no more than the rounding of its terms? */
+static bool is_zero(const double *c, int n, double x, double *f)
+{
+    double size = fabs(c[n]), ax = fabs(x);
+    *f = c[n];
+    for (int k = n - 1; k >= 0; k--) {
+        *f = *f * x + c[k];
+        size = size * ax + fabs(c[k]);
+    }
+    return fabs(*f) <= 4 * DBL_EPSILON * size;
+}
+
+typedef struct Small {                         /* a search for degrees up to four */
+    double lo, hi, from, tolerance;
+    RootVisit *visit;
+    void *user;
+} Small;
+
+static bool collect(void *user, double x)
+{
+    double **next = user;
+    *(*next)++ = x;
+    return true;
+}
+
+static bool small(const double *c, int n, const Small *s);
+
+static bool small_quadratic(const double *c, int n, const Small *s)
+{
+    double r[2];
+    int found = n == 2 ? roots_quadratic(c[2], 0.5 * c[1], c[0], r) : n == 1 ? roots_quadratic(0, 0.5 * c[1], c[0], r) : 0;
+    for (int i = 0; i < found; i++)
+        if (r[i] >= s->lo && r[i] <= s->hi && !s->visit(s->user, r[i]))
+            return false;
+    return true;
+}
+
+/* 0 is a root: the others are those of c(x) / x. */
+static bool small_with_zero(const double *c, int n, const Small *s)
+{
+    double root[5], *next = root;
+    Small all = *s;
+    all.visit = collect;
+    all.user = &next;
+    all.from = s->lo;
+    small(c + 1, n - 1, &all);
+    bool done = !(s->lo <= 0 && s->hi >= 0);
+    for (double *r = root; r < next; r++) {
+        if (!done && *r > 0 && !s->visit(s->user, 0))
+            return false;
+        done |= *r >= 0;
+        if (!s->visit(s->user, *r))
+            return false;
+    }
+    return done || s->visit(s->user, 0);
+}
+
+typedef struct Climb {                         /* from turning point to turning point */
+    const double *c;
+    int n;
+    const Small *s;
+    double x, f;                               /* where it is */
+    bool known, zero, turned, ended;           /* is f known, and 0; is x a turning point; was the last visit the last */
+} Climb;
+
+/* Where a parabola with its top at the turning point meets zero; between two turning points, a straight line. */
+static double guess_between(const Climb *k, double x, double f, bool turns)
+{
+    double w = x - k->x;
+    if (k->turned == turns)
+        return k->x + w * (k->f / (k->f - f));
+    return turns ? x - w * sqrt(f / (f - k->f)) : k->x + w * sqrt(k->f / (k->f - f));
+}
+
+/* On to x, reporting the root on the way, if there is one. False: no more are wanted. */
+static bool climb_to(Climb *k, double x, bool turns)
+{
+    if (x < k->s->from) {                      /* what lies before is not wanted */
+        k->x = x;
+        k->known = false;
+        k->turned = turns;
+        return true;
+    }
+    if (!k->known) {
+        k->zero = is_zero(k->c, k->n, k->x, &k->f);
+        k->known = true;
+        if (k->zero && !k->s->visit(k->s->user, k->x))
+            return !(k->ended = true);
+    }
+    double f;
+    bool zero = is_zero(k->c, k->n, x, &f);
+    if (zero && x > k->x)
+        k->ended = !k->s->visit(k->s->user, x);
+    else if (!zero && !k->zero && (k->f > 0) != (f > 0))
+        k->ended = !k->s->visit(k->s->user, closed_in(k->c, k->n, k->x, x, k->f > 0, guess_between(k, x, f, turns),
+                                                      k->s->tolerance));
+    k->x = x;
+    k->f = f;
+    k->zero = zero;
+    k->turned = turns;
+    return !k->ended;
+}
+
+static bool turn(void *user, double x)
+{
+    return climb_to(user, x, true);
+}
+
+/* Turning points are wanted loosely: a mistake of theirs enters the values there as its square. */
+static bool small(const double *c, int n, const Small *s)
+{
+    while (n > 0 && c[n] == 0)
+        n--;
+    if (n > 0 && c[0] == 0)
+        return small_with_zero(c, n, s);
+    if (n <= 2)
+        return small_quadratic(c, n, s);
+    double slope[4];
+    for (int k = 1; k <= n; k++)
+        slope[k - 1] = k * c[k];
+    Climb climb = { .c = c, .n = n, .s = s, .x = s->lo };
+    Small loose = { s->lo, s->hi, s->lo, 1e-9 * (s->hi - s->lo), turn, &climb };
+    if (loose.tolerance < s->tolerance)
+        loose.tolerance = s->tolerance;
+    small(slope, n - 1, &loose);
+    if (!climb.ended)
+        climb_to(&climb, s->hi, false);
+    return !climb.ended;
+}
+
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* ---- higher degrees ---- */
 
 static void halve(const double *b, int n, double *left, double *right)
 {
@@ -136,7 +282,7 @@ static void isolate(Search *s, const double *b, double u0, double size, int dept
         int first = 0;
         while (b[first] == 0)
             first++;
-        report(s, closed_in(s, u0, u0 + size, b[first] > 0));
+        report(s, closed_in(s->a, s->n, u0, u0 + size, b[first] > 0, u0 + 0.5 * size, 0.5 * DBL_EPSILON));
     } else if (changes > 1) {
         if (depth == DEPTH || --s->budget < 0)
             report(s, u0 + 0.5 * size);
@@ -179,6 +325,11 @@ int roots_between(const double *c, int n, double lo, double hi, double *root)
         n--;
     if (n < 1 || n > MAX || !(lo <= hi))
         return 0;
+    if (n <= 4) {
+        double *next = root;
+        small(c, n, &(Small){ lo, hi, lo, DBL_EPSILON * larger(fabs(lo), fabs(hi)), collect, &next });
+        return (int)(next - root);
+    }
     Search s = { .n = n, .lo = lo, .width = hi - lo, .root = root };
     memcpy(s.a, c, (size_t)(n + 1) * sizeof *c);
     if (lo != 0)                               /* shifted to lo by repeated division */
@@ -209,6 +360,31 @@ static int append(const double *first, int step, int n, bool inverse, double sig
     return total;
 }
 
+void roots_visit(const double *c, int n, double lo, double hi, double from, RootVisit *visit, void *user)
+{
+    if (n <= 4) {
+        if (lo <= hi)
+            small(c, n, &(Small){ lo, hi, from, DBL_EPSILON * larger(fabs(lo), fabs(hi)), visit, user });
+        return;
+    }
+    double root[MAX];
+    int found = roots_between(c, n, lo, hi, root);
+    for (int i = 0; i < found; i++)
+        if (root[i] >= from && !visit(user, root[i]))
+            return;
+}
+
+/* floor(log2) of half a bound of the roots (Fujiwara); needs c[n] != 0. */
+static int reach_exponent(const double *c, int n)
+{
+    double most = -INFINITY;
+    int top = ilogb(c[n]);
+    for (int k = 0; k < n; k++)
+        if (c[k] != 0)
+            most = larger(most, (double)(ilogb(c[k]) - top) / (n - k));
+    return isfinite(most) ? (int)floor(most) : 0;
+}
+
 /* The line in four pieces: [-B, 0] and [0, B] as they are, and beyond by x -> 1/x, where B is a power of two at which the
  * coefficients balance. All four use the same numbers, so nothing is shifted and nothing is lost. */
 int roots_all(const double *c, int n, double *root)
@@ -217,11 +393,12 @@ int roots_all(const double *c, int n, double *root)
         n--;
     if (n < 1 || n > MAX)
         return 0;
-    double most = -INFINITY;                   /* log2 of half a bound of the roots (Fujiwara) */
-    for (int k = 0; k < n; k++)
-        if (c[k] != 0)
-            most = fmax(most, (double)(ilogb(c[k]) - ilogb(c[n])) / (n - k));
-    int e = isfinite(most) ? (int)floor(most) : 0, top = INT_MIN, total = 0;
+    if (n <= 4) {
+        double *next = root;
+        roots_visit_all(c, n, -INFINITY, collect, &next);
+        return (int)(next - root);
+    }
+    int e = reach_exponent(c, n), top = INT_MIN, total = 0;
     double a[MAX + 1], mirrored[MAX + 1], found[4 * MAX + 1];
     for (int k = 0; k <= n; k++)
         if (c[k] != 0 && ilogb(c[k]) + e * k > top)
@@ -249,4 +426,21 @@ int roots_all(const double *c, int n, double *root)
         kept++;
     }
     return kept;
+}
+
+void roots_visit_all(const double *c, int n, double from, RootVisit *visit, void *user)
+{
+    while (n > 0 && c[n] == 0)
+        n--;
+    if (n >= 1 && n <= 4) {
+        int e = reach_exponent(c, n);
+        double reach = ldexp(1, e < 1000 ? e + 3 : 1003);
+        small(c, n, &(Small){ -reach, reach, from, 0, visit, user });
+        return;
+    }
+    double root[MAX];
+    int found = roots_all(c, n, root);
+    for (int i = 0; i < found; i++)
+        if (root[i] >= from && !visit(user, root[i]))
+            return;
 }

@@ -2,6 +2,8 @@
 #ifndef MATH_ROOTS_H
 #define MATH_ROOTS_H
 
+#include <stdbool.h>
+
 enum { ROOTS_MAX_DEGREE = 35 };
 
 /* a x^2 + 2 h x + c = 0, ascending, without cancellation; a double root counts once. Linear if a is 0. */
@@ -12,7 +14,13 @@ int roots_quadratic(double a, double h, double c, double root[2]);
  * A polynomial that vanishes throughout has none. */
 int roots_between(const double *c, int n, double lo, double hi, double *root);
 
+/* The same, one by one in ascending order, leaving out those below `from` (perhaps not all of them). A visit that returns
+ * false ends it. A root's value does not depend on `from`. */
+typedef bool RootVisit(void *user, double x);
+void roots_visit(const double *c, int n, double lo, double hi, double from, RootVisit *visit, void *user);
+
 /* Roots on the whole line, ascending. */
 int roots_all(const double *c, int n, double *root);
+void roots_visit_all(const double *c, int n, double from, RootVisit *visit, void *user);
 
 #endif

@@ -59,8 +59,8 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     double end_in = -INFINITY, end_out = INFINITY;
     if (d.z != 0) {
         double t0 = -o.z / d.z, t1 = (1 - o.z) / d.z;
-        end_in = fmin(t0, t1);
-        end_out = fmax(t0, t1);
+        end_in = lesser(t0, t1);
+        end_out = greater(t0, t1);
     } else if (o.z < 0 || o.z > 1)
         return;
     if (in > end_out || out < end_in)

@@ -191,18 +191,28 @@ static double reach(const Poly *poly, double distance, int k)
     return sum;
 }
 
+typedef struct { double shift, len; HitSink *sink; } Walk;
+
+static bool visit(void *user, double s)
+{
+    const Walk *w = user;
+    double t = w->shift + s / w->len;
+    hit_add(w->sink, t, 0);
+    return t < hit_limit(w->sink);
+}
+
 static void hits(const void *shape, const Ray *ray, HitSink *sink)
 {
     const Poly *poly = shape;
-    double len = length(ray->d), shift = shape_nearest_t(ray), c[MAX_ORDER + 1], root[MAX_ORDER];
+    double len = length(ray->d), shift = shape_nearest_t(ray), c[MAX_ORDER + 1];
     Vec3 o = ray_at(ray, shift), d = scaled(ray->d, 1 / len);
     int n = along(poly, o, d, c);
     /* What is left of a leading coefficient that cancelled would be a root at the end of the world. */
     while (n > 0 && fabs(c[n]) <= 1e-13 * reach(poly, length(o), n))
         n--;
-    n = n == 2 ? roots_quadratic(c[2], 0.5 * c[1], c[0], root) : roots_all(c, n, root);
-    for (int i = 0; i < n; i++)
-        hit_add(sink, shift + root[i] / len, 0);
+    Walk w = { shift, len, sink };
+    double from = (ray->t_min - shift) * len;
+    roots_visit_all(c, n, from - 1e-6 * (1 + fabs(from)), visit, &w);
 }
 
 typedef struct { double value, size; Vec3 gradient; } Sample;          /* size: of the terms, for the rounding */

@@ -1,7 +1,7 @@
 /* superellipsoid.c - superellipsoid { <e, n> }: (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) = 1.
  *
  * Traced by the norm g(g(|x|, |y|; 2/e), |z|; 2/n) - 1 with g(a, b; p) = (a^p + b^p)^(1/p), which grows in proportion to the
- * distance from the origin whatever the exponents. The planes x = +-y, y = +-z, z = +-x and those of the axes cut a ray into
+ * distance from the origin whatever the exponents. If it is convex, Newton's steps find it. If not, the planes x = +-y, y = +-z, z = +-x and those of the axes cut a ray into
  * pieces on which it is smooth and turns at most once; each piece is searched by the signs at its ends and of its slopes. */
 #include "sdl/parse.h"
 #include "shape/shape.h"
@@ -122,20 +122,73 @@ static bool clip(Vec3 o, Vec3 d, double *in, double *out)
             continue;
         }
         double t0 = (-edge - x) / dx, t1 = (edge - x) / dx;
-        *in = fmax(*in, fmin(t0, t1));
-        *out = fmin(*out, fmax(t0, t1));
+        *in = greater(*in, lesser(t0, t1));
+        *out = lesser(*out, greater(t0, t1));
     }
     return *in < *out;
+}
+
+/* Both exponents at most 2: the norm is convex, and along a ray it falls, then rises. Newton's steps from an end of the cube
+ * towards the surface never step over it, and turn uphill only if there is nothing to hit. */
+static bool downhill(const Super *s, Vec3 o, Vec3 d, double t, double way, double *root)
+{
+    double before = 0;
+    for (int i = 0; i < 200; i++) {
+        Sample at = sample(s, o, d, t);
+        if (at.f <= 0)
+            break;
+        double step = -at.f / at.slope, size = fabs(step);
+        if (!(step * way > 0))
+            return false;
+        t += step;
+        if (size * size * size <= 1e-14 * before * before)   /* the coming step, as steps shrink as their squares */
+            break;
+        before = size;
+    }
+    *root = t;
+    return true;
+}
+
+static void convex_hits(const Super *s, Vec3 o, Vec3 d, double in, double out, double shift, double len, const Ray *ray,
+                        HitSink *sink)
+{
+    double start = (ray->t_min - shift) * len, root;
+    bool within = false;
+    if (out < start)
+        return;
+    if (in < start) {                          /* the ray starts in the cube: on its way out, or in the body? */
+        Sample at = sample(s, o, d, start);
+        within = at.f < -1e-9;
+        if (at.f > 1e-9 && at.slope >= 0)
+            return;
+    }
+    if (!within) {
+        if (!downhill(s, o, d, in, 1, &root))
+            return;
+        hit_add(sink, shift + root / len, 0);
+        if (shift + root / len >= hit_limit(sink))
+            return;
+    }
+    if (downhill(s, o, d, out, -1, &root))
+        hit_add(sink, shift + root / len, 0);
 }
 
 static void hits(const void *shape, const Ray *ray, HitSink *sink)
 {
     const Super *s = shape;
-    double len = length(ray->d), shift = shape_nearest_t(ray), cut[11];
-    Vec3 o = ray_at(ray, shift), d = scaled(ray->d, 1 / len);
+    double shift = shape_nearest_t(ray), cut[11];
+    Vec3 o = ray_at(ray, shift);
+    if (length2(o) > 3.000001)                 /* outside the ball around the cube */
+        return;
+    double len = length(ray->d);
+    Vec3 d = scaled(ray->d, 1 / len);
     int n = 0;
     if (!clip(o, d, &cut[0], &cut[10]))
         return;
+    if (s->p >= 1 && s->q >= 1) {
+        convex_hits(s, o, d, cut[0], cut[10], shift, len, ray, sink);
+        return;
+    }
     const double height[9] = { o.x, o.y, o.z, o.x - o.y, o.x + o.y, o.y - o.z, o.y + o.z, o.z - o.x, o.z + o.x };
     const double slope[9] = { d.x, d.y, d.z, d.x - d.y, d.x + d.y, d.y - d.z, d.y + d.z, d.z - d.x, d.z + d.x };
     double last = cut[10];

@@ -4,7 +4,7 @@
 #include "shape/shape.h"
 
 typedef struct { double major, minor; } Params;
-typedef Params Torus;
+typedef struct { double major, minor, ball2; bool thin; } Torus;      /* ball2: radius^2 of a ball around it */
 
 static void parse(Parser *p, void *params)
 {
@@ -26,9 +26,10 @@ static void compile(ShapeBuild *b, const void *params)
         return;
     double unit = shape_unit(b, fabs(t->major) + t->minor);
     Torus *out = build_data(b, sizeof *out);
-    *out = (Torus){ fabs(t->major) / unit, t->minor / unit };
+    double R = fabs(t->major) / unit, r = t->minor / unit;
+    *out = (Torus){ R, r, (R + r) * (R + r) * (1 + 1e-9), r < 0.1 * R };
     Affine place = build_place(b, unit);
-    build_prim(b, out, &place, shape_padded(box_of(out)));
+    build_prim(b, out, &place, shape_padded(box_of(&(Params){ out->major, out->minor })));
 }
 
 /* Where the ray o + s u is within the solid cylinder around the torus. */
@@ -43,14 +44,14 @@ static bool reach(const Torus *t, Vec3 o, Vec3 u, double *in, double *out)
         if (h2 < 0)
             return false;
         double half = sqrt(h2 / a);
-        *in = fmax(*in, middle - half);
-        *out = fmin(*out, middle + half);
+        *in = greater(*in, middle - half);
+        *out = lesser(*out, middle + half);
     } else if (o.x * o.x + o.z * o.z > r * r)
         return false;
     if (u.y != 0) {
         double t0 = (-t->minor - o.y) / u.y, t1 = (t->minor - o.y) / u.y;
-        *in = fmax(*in, fmin(t0, t1));
-        *out = fmin(*out, fmax(t0, t1));
+        *in = greater(*in, lesser(t0, t1));
+        *out = lesser(*out, greater(t0, t1));
     } else if (fabs(o.y) > t->minor)
         return false;
     /* A little more on both sides: a root at the very edge must not be rounded away. */
@@ -83,19 +84,35 @@ static double polished(const Torus *t, Vec3 o, Vec3 u, double s)
     return s;
 }
 
+typedef struct { const Torus *torus; Vec3 o, u; double shift, len; HitSink *sink; } Walk;
+
+static bool visit(void *user, double s)
+{
+    const Walk *w = user;
+    double t = w->shift + (w->torus->thin ? polished(w->torus, w->o, w->u, s) : s) / w->len;
+    hit_add(w->sink, t, 0);
+    return t < hit_limit(w->sink);
+}
+
 static void hits(const void *shape, const Ray *ray, HitSink *sink)
 {
     const Torus *t = shape;
-    double len = length(ray->d), shift = shape_nearest_t(ray), in, out, root[4];
-    Vec3 o = ray_at(ray, shift), u = scaled(ray->d, 1 / len);
+    double shift = shape_nearest_t(ray), in, out;
+    Vec3 o = ray_at(ray, shift);
+    if (length2(o) > t->ball2)
+        return;
+    double len = length(ray->d);
+    Vec3 u = scaled(ray->d, 1 / len);
     if (!reach(t, o, u, &in, &out))
+        return;
+    double margin = 1e-6 * t->minor, from = (ray->t_min - shift) * len - margin, to = (hit_limit(sink) - shift) * len + margin;
+    if (out < from || in > to)
         return;
     double R2 = t->major * t->major, r2 = t->minor * t->minor, k1 = length2(o) - R2 - r2, k2 = dot(o, u);
     const double c[5] = { k1 * k1 + 4 * R2 * (o.y * o.y - r2), 4 * (k1 * k2 + 2 * R2 * o.y * u.y),
                           2 * (k1 + 2 * k2 * k2 + 2 * R2 * u.y * u.y), 4 * k2, 1 };
-    int n = roots_between(c, 4, in, out, root);
-    for (int i = 0; i < n; i++)
-        hit_add(sink, shift + polished(t, o, u, root[i]) / len, 0);
+    Walk w = { t, o, u, shift, len, sink };
+    roots_visit(c, 4, in, out, from, visit, &w);
 }
 
 static bool inside(const void *shape, Vec3 p)
