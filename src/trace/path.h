@@ -120,6 +120,13 @@ Rgb area_visible(const Shade *s, uint32_t light, Rgb colour);          /* mean o
 Vec3 area_sample_place(Tracer *t, const Light *light, Vec3 l, int u, int v);
 
 /* interior.c */
+static inline void interiors_copy(Interiors *to, const Interiors *from)        /* not the unused part */
+{
+    to->n = from->n;
+    for (uint32_t i = 0; i < from->n; i++)
+        to->at[i] = from->at[i];
+}
+
 void interiors_add(Interiors *list, uint32_t interior);
 void interiors_remove(Interiors *list, uint32_t place);
 int interiors_find(const Interiors *list, uint32_t interior);          /* place, or -1 */

@@ -30,40 +30,39 @@ typedef struct Crossing {                      /* from one body into another */
     Interiors in;                              /* beyond */
 } Crossing;
 
-static Crossing cross_into(const Shade *s)
+static void cross_into(const Shade *s, Crossing *c)
 {
     const World *w = s->t->world;
     const Interiors *list = s->path->in;
     const Interior *here = w->interior[s->interior].interior;
-    Crossing c = { .ratio = 1 / (double)here->ior, .dispersion = 1 / (double)here->dispersion,
-                   .bands = here->dispersion_samples > 1 ? here->dispersion_samples : 1, .in = { .n = list->n } };
-    for (uint32_t i = 0; i < list->n; i++)
-        c.in.at[i] = list->at[i];
+    c->ratio = 1 / (double)here->ior;
+    c->dispersion = 1 / (double)here->dispersion;
+    c->bands = here->dispersion_samples > 1 ? here->dispersion_samples : 1;
+    interiors_copy(&c->in, list);
     int place = interiors_find(list, s->interior);
     const Interior *last = list->n > 0 ? w->interior[list->at[list->n - 1]].interior : NULL;
     if (place < 0) {
         if (last != NULL) {
-            c.ratio = (double)last->ior / (double)here->ior;
-            c.dispersion = (double)last->dispersion / (double)here->dispersion;
+            c->ratio = (double)last->ior / (double)here->ior;
+            c->dispersion = (double)last->dispersion / (double)here->dispersion;
         }
-        interiors_add(&c.in, s->interior);
-        return c;
+        interiors_add(&c->in, s->interior);
+        return;
     }
-    interiors_remove(&c.in, (uint32_t)place);
+    interiors_remove(&c->in, (uint32_t)place);
     if ((uint32_t)place + 1 < list->n) {       /* not the innermost: nothing changes for the ray */
-        c.ratio = c.dispersion = 1;
-        return c;
+        c->ratio = c->dispersion = 1;
+        return;
     }
-    c.ratio = (double)here->ior;
-    c.dispersion = (double)here->dispersion;
-    if (c.in.n > 0) {
-        const Interior *outer = w->interior[c.in.at[c.in.n - 1]].interior;
-        c.ratio /= (double)outer->ior;
-        c.dispersion /= (double)outer->dispersion;
-        if (outer->dispersion_samples > c.bands)
-            c.bands = outer->dispersion_samples;
+    c->ratio = (double)here->ior;
+    c->dispersion = (double)here->dispersion;
+    if (c->in.n > 0) {
+        const Interior *outer = w->interior[c->in.at[c->in.n - 1]].interior;
+        c->ratio /= (double)outer->ior;
+        c->dispersion /= (double)outer->dispersion;
+        if (outer->dispersion_samples > c->bands)
+            c->bands = outer->dispersion_samples;
     }
-    return c;
 }
 
 static Path passed_on(const Shade *s, const Crossing *c, Vec3 d, double weight)
@@ -121,7 +120,8 @@ static Rgb dimming(const Shade *s)
 
 bool shade_transmit(const Shade *s, Vec3 n, Rgb filter, bool filtered, double through, Colour *sum)
 {
-    Crossing c = cross_into(s);
+    Crossing c;
+    cross_into(s, &c);
     double weight = s->path->weight * (double)rgb_max_abs(filter);
     Colour seen;
     bool total = false;

@@ -158,7 +158,15 @@ static void shade_leaf(void *user, const TextureLeaf *leaf)
 {
     Shade *s = user;
     TextureContext before = s->at;
-    Stack k = { .s = s, .leaf = leaf, .filter = rgb_grey(1), .through = 1, .top = s->surface->normal };
+    Stack k;                                   /* not cleared: the mirrors are large, and few */
+    k.s = s;
+    k.leaf = leaf;
+    k.sum = k.reflected = rgb_grey(0);
+    k.filter = rgb_grey(1);
+    k.through = 1;
+    k.filtered = false;
+    k.top = s->surface->normal;
+    k.n_mirrors = 0;
     for (const Texture *layer = leaf->top; layer != NULL && k.through > s->t->tracing->adc_bailout; layer = layer->below)
         shade_layer(&k, layer);
     Colour c = { k.sum.r + k.reflected.r, k.sum.g + k.reflected.g, k.sum.b + k.reflected.b, 0, 0 };
@@ -195,8 +203,16 @@ Colour shade_hit(Tracer *t, const Path *path, const Hit *hit, int level)
     Ray ray = { path->o, path->d, 0, path->reach };
     Surface surface;
     world_surface(w, &ray, hit, t->tracing->wants_uv, &surface);
-    Shade s = { .t = t, .path = path, .surface = &surface, .material = m, .interior = m->interior, .depth = hit->t,
-                .level = level };
+    Shade s;                                   /* not cleared: nothing of `light` is known */
+    s.t = t;
+    s.path = path;
+    s.surface = &surface;
+    s.material = m;
+    s.interior = m->interior;
+    s.depth = hit->t;
+    s.level = level;
+    s.known = 0;
+    s.sum = (Colour){ 0, 0, 0, 0, 0 };
     s.at = (TextureContext){ .point = scaled(surface.p, t->tracing->to_scene), .ray = path->d, .normal = surface.normal,
                              .uv = surface.uv, .hit = true, .quality = t->tracing->quality,
                              .number_of_waves = w->globals.number_of_waves, .noise_generator = w->globals.noise_generator };

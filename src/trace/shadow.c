@@ -113,7 +113,6 @@ static Rgb surface_passes(const Shade *s, const Ray *ray, const Hit *hit, Surfac
 
 typedef struct Walk {
     const Shade *s;
-    const Light *light;
     Ray ray;
     Interiors in;
     double done;                               /* how far it has come */
@@ -166,7 +165,8 @@ static bool still_hidden(Tracer *t, uint32_t light, const Ray *ray)
 static Rgb walk_veils(Walk *walk, uint32_t light)
 {
     Tracer *t = walk->s->t;
-    Veils veils = { .world = t->world };
+    Veils veils;                               /* not cleared: its hits are many */
+    veils.world = t->world;
     do {
         veils.n = 0;
         veils.overflowed = false;
@@ -174,7 +174,8 @@ static Rgb walk_veils(Walk *walk, uint32_t light)
             t->last_blocker[light] = veils.blocker + 1;
             return rgb_grey(0);
         }
-        qsort(veils.hit, veils.n, sizeof veils.hit[0], hit_order);
+        if (veils.n > 1)
+            qsort(veils.hit, veils.n, sizeof veils.hit[0], hit_order);
         for (uint32_t i = 0; i < veils.n; i++) {
             if (veils.hit[i].t <= walk->clear)
                 continue;                      /* seen as one surface, as rays that go on from it see it */
@@ -193,7 +194,10 @@ Rgb shadow_walk(const Shade *s, uint32_t light, const Beam *beam, Rgb colour)
 {
     Tracer *t = s->t;
     const Light *source = &t->world->light[light];
-    Walk walk = { .s = s, .light = source, .colour = colour };
+    Walk walk;
+    walk.s = s;
+    walk.colour = colour;
+    walk.done = 0;
     walk.ray = (Ray){ surface_offset(s->surface, beam->l), beam->l, 0, beam->d * LIGHT_END };
     if (source->projected_through != 0) {
         Hit hit;
@@ -205,9 +209,7 @@ Rgb shadow_walk(const Shade *s, uint32_t light, const Beam *beam, Rgb colour)
     }
     if (still_hidden(t, light, &walk.ray))
         return rgb_grey(0);
-    walk.in.n = s->path->in->n;
-    for (uint32_t i = 0; i < walk.in.n; i++)
-        walk.in.at[i] = s->path->in->at[i];
+    interiors_copy(&walk.in, s->path->in);
     walk.in_air = t->tracing->quality >= 9 && t->tracing->n_fog > 0 && source->def->media_attenuation &&
                   source->def->media_interaction;
     return walk_veils(&walk, light);
