@@ -197,7 +197,7 @@ Rgb shadow_walk(const Shade *s, uint32_t light, const Beam *beam, Rgb colour)
     Walk walk;
     walk.s = s;
     walk.colour = colour;
-    walk.done = 0;
+    walk.done = walk.clear = 0;
     walk.ray = (Ray){ surface_offset(s->surface, beam->l), beam->l, 0, beam->d * LIGHT_END };
     if (source->projected_through != 0) {
         Hit hit;
