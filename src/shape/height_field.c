@@ -343,7 +343,8 @@ static Corners corners_at(const Params *m, uint32_t i, uint32_t k)
     return (Corners){ at(m, i, k), at(m, i + 1, k), at(m, i, k + 1), at(m, i + 1, k + 1) };
 }
 
-/* POV: down to minus infinity, also under water, and the far edges are not of it. */
+/* POV: down to minus infinity, also under water, and the far edges are not of it. There points are raised to the water for
+ * this question alone, so that it and the surface disagree along the shore; here they agree. */
 static bool inside(const void *shape, Vec3 p)
 {
     const Field *f = shape;
@@ -354,7 +355,6 @@ static bool inside(const void *shape, Vec3 p)
         return true;
     uint32_t i = (uint32_t)p.x, k = (uint32_t)p.z;
     Corners c = corners_at(m, i, k);
-    c = (Corners){ fmax(c.h00, m->water), fmax(c.h10, m->water), fmax(c.h01, m->water), fmax(c.h11, m->water) };
     return p.y < on_cell(&c, p.x - i, p.z - k);
 }
 
