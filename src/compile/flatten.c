@@ -388,6 +388,9 @@ static uint32_t bounded(Compile *c, const Object *o, const Inherited *from, uint
         return body;
     uint32_t node = over_body(c, CSG_BOUND, &items, first_prim);
     c->csg.data[~node].box = box;
+    for (uint32_t i = first_prim; i < c->prim.n; i++)
+        if (!(c->prim.data[i].flags & PRIM_HELPER))
+            c->prim.data[i].flags |= PRIM_BOUNDED;
     return node;
 }
 

@@ -15,6 +15,7 @@ typedef struct {
     int order;
     double size[MAX_ORDER + 1];                /* sum of the sizes of the coefficients of each degree */
     const double *coefficient;
+    const signed char *top;                    /* for each power of x and y the highest of z with a coefficient; -1: none */
 } Poly;
 
 static int n_terms(int order)
@@ -107,6 +108,23 @@ static void degree_sizes(const Params *p, double *largest, double *sum)
             }
 }
 
+static const signed char *tops(ShapeBuild *b, const double *c, int order)
+{
+    signed char *top = build_data(b, (size_t)((order + 1) * (order + 2) / 2)), *at = top;
+    for (int i = order; i >= 0; i--)
+        for (int j = order - i; j >= 0; j--) {
+            int k = order - i - j;
+            const double *next = c + k + 1;
+            while (k >= 0 && *c == 0) {
+                c++;
+                k--;
+            }
+            *at++ = (signed char)k;
+            c = next;
+        }
+    return top;
+}
+
 static void compile(ShapeBuild *b, const void *params)
 {
     const Params *p = params;
@@ -127,7 +145,7 @@ static void compile(ShapeBuild *b, const void *params)
         for (int j = p->order - i; j >= 0; j--)
             for (int k = p->order - i - j; k >= 0; k--, at++)
                 c[at] = ldexp(p->coefficient[at], e * (i + j + k) - top);
-    *out = (Poly){ .order = p->order, .coefficient = c };
+    *out = (Poly){ .order = p->order, .coefficient = c, .top = tops(b, c, p->order) };
     for (int k = 0; k <= p->order; k++)
         out->size[k] = ldexp(sum[k], e * k - top);
     Affine place = build_place(b, unit);
@@ -136,8 +154,8 @@ static void compile(ShapeBuild *b, const void *params)
 
 /* ---- tracing ---- */
 
-/* p := p (o + d s) + c; degree -1 is the zero polynomial. */
-static int step(double *p, int degree, double o, double d)
+/* p := p (o + d s); degree -1 is the zero polynomial. */
+static inline int step(double *p, int degree, double o, double d)
 {
     if (degree < 0)
         return -1;
@@ -148,7 +166,7 @@ static int step(double *p, int degree, double o, double d)
     return degree + 1;
 }
 
-static int plus(double *p, int degree, const double *q, int q_degree)
+static inline int plus(double *p, int degree, const double *q, int q_degree)
 {
     for (int k = degree + 1; k <= q_degree; k++)
         p[k] = 0;
@@ -157,22 +175,33 @@ static int plus(double *p, int degree, const double *q, int q_degree)
     return q_degree > degree ? q_degree : degree;
 }
 
+/* The terms of one power of x and y, from the highest power of z that has one; degree -1: none has. */
+static inline int along_z(const double *c, int top, double o, double d, double *p)
+{
+    if (top < 0)
+        return -1;
+    p[0] = *c++;
+    for (int k = 1; k <= top; k++) {
+        step(p, k - 1, o, d);
+        p[0] += *c++;
+    }
+    return top;
+}
+
 /* The polynomial in s at o + s d; returns its degree. */
 static int along(const Poly *poly, Vec3 o, Vec3 d, double *px)
 {
     const double *c = poly->coefficient;
+    const signed char *top = poly->top;
     double py[MAX_ORDER + 1], pz[MAX_ORDER + 1];
     int n = poly->order, nx = -1;
     for (int i = n; i >= 0; i--) {
         int ny = -1;
         for (int j = n - i; j >= 0; j--) {
-            int nz = -1;
-            for (int k = n - i - j; k >= 0; k--, c++) {
-                nz = step(pz, nz, o.z, d.z);
-                if (*c != 0)
-                    nz = plus(pz, nz, c, 0);
-            }
+            int length_ = n - i - j + 1, nz = along_z(c + length_ - 1 - *top, *top, o.z, d.z, pz);
             ny = plus(py, step(py, ny, o.y, d.y), pz, nz);
+            c += length_;
+            top++;
         }
         nx = plus(px, step(px, nx, o.x, d.x), py, ny);
     }

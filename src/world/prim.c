@@ -120,10 +120,20 @@ static bool ray_meets_bounds(const World *w, const CsgNode *node, const Ray *ray
     return true;
 }
 
-static bool node_keeps(const World *w, const CsgNode *node, uint32_t self, const Ray *ray, Vec3 p)
+/* Does the ray meet all bounds above the prim? Asked once, before its roots are sought. */
+static bool bounds_let_through(const HitSink *sink, uint32_t csg)
+{
+    const World *w = sink->world;
+    for (uint32_t c = csg; c != sink->above; c = w->csg[c].parent)
+        if ((w->csg[c].flags & CSG_BOUND) && !ray_meets_bounds(w, &w->csg[c], sink->ray))
+            return false;
+    return true;
+}
+
+static bool node_keeps(const World *w, const CsgNode *node, uint32_t self, Vec3 p)
 {
     if (node->flags & CSG_BOUND)
-        return ray_meets_bounds(w, node, ray);
+        return true;                           /* as bounds_let_through has found */
     if (node->op == CSG_ALL)
         return !some_child(w, node, self, p, false);
     return !(node->flags & CSG_MERGE) || !some_child(w, node, self, p, true);
@@ -137,7 +147,7 @@ static bool csg_keeps(const HitSink *sink, double t)
     if ((w->prim[self].flags & PRIM_BOXED) && !bounds_contain(w->box[self], p))
         return false;
     for (uint32_t c = sink->csg; c != sink->above; c = w->csg[c].parent) {
-        if (!node_keeps(w, &w->csg[c], self, sink->ray, p))
+        if (!node_keeps(w, &w->csg[c], self, p))
             return false;
         self = ~c;
     }
@@ -185,7 +195,7 @@ static void prim_test(HitSink *sink, uint32_t index)
 {
     const World *w = sink->world;
     const Prim *prim = &w->prim[index];
-    if (prim->flags & sink->skip)
+    if ((prim->flags & sink->skip) || ((prim->flags & PRIM_BOUNDED) && !bounds_let_through(sink, prim->csg)))
         return;
     const Ray *ray = sink->ray;
     const Affine *place = &w->place[prim->place];

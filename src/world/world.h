@@ -27,7 +27,8 @@ enum {                                         /* Prim.flags */
     PRIM_HELPER = 64,                          /* clip or bound shape: inside tests only, not in the accelerator */
     PRIM_NO_IMAGE_LATER = 128,                 /* POV: no_image on a child of an unsplit union: the camera's own rays see it */
     PRIM_OPAQUE = 256,                         /* all textures it may show, interior_texture too, are opaque: shadow rays may stop */
-    PRIM_BOXED = 512                           /* unbounded, but for a bound: hits outside its box do not count */
+    PRIM_BOXED = 512,                          /* unbounded, but for a bound: hits outside its box do not count */
+    PRIM_BOUNDED = 1024                        /* below a BOUND node */
 };
 
 typedef struct Prim {
