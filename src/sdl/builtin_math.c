@@ -141,15 +141,13 @@ static double select_of(Parser *p)
     return v[0] < 0 ? v[1] : v[0] == 0 ? v[2] : v[3];
 }
 
-/* Section 8: numbers from a stream, made by seed, numbered from 0. */
+/* Numbers from a stream, made by seed, numbered from 0. */
 static double random_of(Parser *p, Loc loc)
 {
     double k = one(p);
     if (!(k >= 0 && k < p->random.n))
         fail(p->diag, loc, "Illegal random number generator.");
-    uint32_t *s = &p->random.data[(uint32_t)k];
-    *s = 1812433253u * *s + 12345u;
-    return *s / 4294967295.0;
+    return random_next(&p->random.data[(uint32_t)k]);
 }
 
 static double seed_of(Parser *p)

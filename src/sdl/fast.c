@@ -7,12 +7,15 @@
 
 #include "sdl/parser.h"
 
-enum { DEEPEST = 50 };
+enum { DEEPEST = 50, MAX_UNDO = 8 };
 
 typedef struct Fast {
+    Parser *p;
     const Token *at, *end;
     bool failed;
     int depth;
+    unsigned n_undo;                           /* random streams that were asked: put back if the attempt fails */
+    struct { uint32_t stream, state; } undo[MAX_UNDO];
 } Fast;
 
 static double sum(Fast *f);
@@ -86,8 +89,37 @@ static double parenthesised(Fast *f)
     return take(f, TOK_RPAREN) && next_kind(f) != TOK_DOT ? v : give_up(f);
 }
 
+static double rand_of(Fast *f)
+{
+    double k = parenthesised(f);
+    if (f->failed || f->n_undo == MAX_UNDO || !(k >= 0 && k < f->p->random.n))
+        return give_up(f);
+    uint32_t stream = (uint32_t)k;
+    f->undo[f->n_undo].stream = stream;
+    f->undo[f->n_undo++].state = f->p->random.data[stream];
+    return random_next(&f->p->random.data[stream]);
+}
+
+/* Of two floats with a comma between them. */
+static double of_two(Fast *f, int keyword)
+{
+    if (!take(f, TOK_LPAREN))
+        return give_up(f);
+    double a = sum(f);
+    if (!take(f, TOK_COMMA))
+        return give_up(f);
+    double b = sum(f);
+    if (!take(f, TOK_RPAREN) || next_kind(f) == TOK_DOT)
+        return give_up(f);
+    return keyword == KW_MOD ? fmod(a, b) : keyword == KW_MIN ? (b < a ? b : a) : b > a ? b : a;
+}
+
 static double function(Fast *f, int keyword)
 {
+    if (keyword == KW_RAND)
+        return rand_of(f);
+    if (keyword == KW_MOD || keyword == KW_MIN || keyword == KW_MAX)
+        return of_two(f, keyword);
     double v = parenthesised(f);
     switch (keyword) {
     case KW_ABS: return fabs(v);
@@ -161,8 +193,20 @@ static inline bool start(Parser *p, Fast *f)
     const Reader *r = &p->reader[p->n_readers - 1];
     if (p->have || r->is_file || p->version < 350)
         return false;
-    *f = (Fast){ .at = r->tokens + r->at, .end = r->tokens + r->n };
+    f->p = p;
+    f->at = r->tokens + r->at;
+    f->end = r->tokens + r->n;
+    f->failed = false;
+    f->depth = 0;
+    f->n_undo = 0;
     return true;
+}
+
+static bool abandon(Fast *f)
+{
+    while (f->n_undo--)
+        f->p->random.data[f->undo[f->n_undo].stream] = f->undo[f->n_undo].state;
+    return false;
 }
 
 static inline void finish(Parser *p, const Fast *f)
@@ -187,33 +231,41 @@ bool fast_sum(Parser *p, double *out)
         return false;
     *out = sum(&f);
     if (f.failed || !at_end_of_sum(&f))
-        return false;
+        return abandon(&f);
     finish(p, &f);
     return true;
 }
 
-/* ( sum [relation sum] ) */
+static bool is_relation(int kind)
+{
+    return kind == TOK_LESS || kind == TOK_GREATER || kind == TOK_LESS_EQUAL || kind == TOK_GREATER_EQUAL || kind == TOK_EQUAL
+        || kind == TOK_NOT_EQUAL;
+}
+
+static double comparison(Fast *f)
+{
+    double v = sum(f);
+    for (int kind; is_relation(kind = next_kind(f)) && !f->failed;) {
+        f->at++;
+        v = expr_relation(kind, v, sum(f));
+    }
+    return v;
+}
+
+/* ( comparison { &| comparison } ): all on one level, from left to right. */
 bool fast_condition(Parser *p, bool *out)
 {
     Fast f;
     if (!start(p, &f) || !take(&f, TOK_LPAREN))
         return false;
-    double a = sum(&f), b;
-    int kind = next_kind(&f);
-    switch (f.failed ? TOK_END : kind) {
-    case TOK_RPAREN:
-        *out = fabs(a) > EPSILON;
-        break;
-    case TOK_LESS: case TOK_GREATER: case TOK_LESS_EQUAL: case TOK_GREATER_EQUAL: case TOK_EQUAL: case TOK_NOT_EQUAL:
-        f.at++;
-        b = sum(&f);
-        *out = expr_relation(kind, a, b);
-        break;
-    default:
-        return false;
+    bool truth = fabs(comparison(&f)) > EPSILON;
+    while (!f.failed && (next_kind(&f) == TOK_AND || next_kind(&f) == TOK_OR)) {
+        bool both = f.at++->kind == TOK_AND, other = fabs(comparison(&f)) > EPSILON;
+        truth = both ? truth && other : truth || other;
     }
     if (!take(&f, TOK_RPAREN) || f.failed)
-        return false;
+        return abandon(&f);
+    *out = truth;
     finish(p, &f);
     return true;
 }
@@ -229,7 +281,7 @@ bool fast_declare(Parser *p, bool local)
         return false;
     double v = sum(&f);
     if (f.failed || !take(&f, TOK_SEMICOLON) || next_kind(&f) == TOK_SEMICOLON)
-        return false;
+        return abandon(&f);
     value_set_number(p, b->value, &(Num){ { v }, 1 });
     finish(p, &f);
     return true;

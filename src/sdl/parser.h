@@ -201,6 +201,12 @@ void expr_condition(Parser *p, Num *out);      /* ( full ), the outermost level 
 
 double expr_relation(int kind, double a, double b);        /* TOK_LESS...: 0 or 1 */
 
+static inline double random_next(uint32_t *state)         /* 01-language, section 8 */
+{
+    *state = 1812433253u * *state + 12345u;
+    return *state / 4294967295.0;
+}
+
 /* fast.c: true if it could be done on the spot; else nothing has been taken. */
 bool fast_sum(Parser *p, double *out);
 bool fast_condition(Parser *p, bool *out);
