@@ -80,7 +80,7 @@ static double aoi(const void *params, const PatternPoint *at)
 {
     (void)params;
     const TextureContext *hit = at->context;
-    return hit == NULL || !hit->hit ? 0 : acos(clipped(dot(hit->normal, hit->ray))) / PI;
+    return hit == NULL || !hit->hit ? 0 : acos(clipped(dot(normalized(hit->normal), hit->ray))) / PI;
 }
 
 const PatternOps pattern_slope = { .keyword = "slope", .params_size = sizeof(Slope), .parse = parse, .value = slope };

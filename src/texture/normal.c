@@ -221,7 +221,6 @@ static Vec3 frames_out(const TextureFrame *f, Vec3 n)
 
 Vec3 texture_layer_normal(const TextureLeaf *leaf, const Texture *layer, Vec3 n, TextureContext *at)
 {
-    at->normal = n;
     if (layer->normal == NULL || at->quality < 8)
         return n;
     bool keep_length = layer->no_bump_scale || leaf->keep_length;

@@ -22,29 +22,30 @@ static BlendMap map_of(const Pigment *pigment)
     return (BlendMap){ MAP_COLOUR, 2, grey_map };
 }
 
-static Colour entry_colour(const BlendMap *map, const MapEntry *entry, Vec3 p, const TextureContext *at, bool *found)
+/* POV: an image with `once` in a map counts as clear, not as missing. */
+static Colour entry_colour(const BlendMap *map, const MapEntry *entry, Vec3 p, const TextureContext *at)
 {
-    return map->kind == MAP_COLOUR ? entry->colour : pigment_colour(entry->pigment, p, at, found);
+    return map->kind == MAP_COLOUR ? entry->colour : pigment_colour(entry->pigment, p, at, NULL);
 }
 
-static Colour patterned(const Pigment *pigment, Vec3 p, const TextureContext *at, bool *found)
+static Colour patterned(const Pigment *pigment, Vec3 p, const TextureContext *at)
 {
     Vec3 q = pattern_point(pigment->pattern, p);
     BlendMap map = map_of(pigment);
     MapSpot spot = map_find(map.entry, map.n, pattern_value(pigment->pattern, q, at));
-    Colour to = entry_colour(&map, spot.to, q, at, found);
+    Colour to = entry_colour(&map, spot.to, q, at);
     if (spot.from == NULL)
         return to;
-    return colour_lerp(entry_colour(&map, spot.from, q, at, found), to, (float)spot.t);
+    return colour_lerp(entry_colour(&map, spot.from, q, at), to, (float)spot.t);
 }
 
-static Colour average(const Pigment *pigment, Vec3 p, const TextureContext *at, bool *found)
+static Colour average(const Pigment *pigment, Vec3 p, const TextureContext *at)
 {
     Vec3 q = pigment->pattern != NULL ? pattern_point(pigment->pattern, p) : p;
     Colour sum = { 0 };
     for (uint32_t i = 0; i < pigment->map.n; i++) {
         const MapEntry *e = &pigment->map.entry[i];
-        sum = colour_add(sum, colour_scaled(entry_colour(&pigment->map, e, q, at, found), e->key));
+        sum = colour_add(sum, colour_scaled(entry_colour(&pigment->map, e, q, at), e->key));
     }
     double total = map_total(&pigment->map);
     return total != 0 ? colour_scaled(sum, (float)(1 / total)) : sum;
@@ -71,8 +72,8 @@ Colour pigment_colour(const Pigment *pigment, Vec3 p, const TextureContext *at, 
         return *pigment->quick;
     switch (pigment->kind) {
     case PIGMENT_PLAIN: return pigment->colour;
-    case PIGMENT_PATTERN: return patterned(pigment, p, at, found);
-    case PIGMENT_AVERAGE: return average(pigment, p, at, found);
+    case PIGMENT_PATTERN: return patterned(pigment, p, at);
+    case PIGMENT_AVERAGE: return average(pigment, p, at);
     case PIGMENT_IMAGE: return image(pigment, p, found);
     case PIGMENT_UV: return pigment_colour(pigment->map.entry[0].pigment, vec3(at->uv.u, at->uv.v, 0), at, found);
     }

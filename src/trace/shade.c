@@ -87,16 +87,11 @@ static Rgb mirror_light(const Shade *s, const Mirror *m)
 
 /* POV: the film of an iridescent finish is turbulent in scene space, which the chains of patterned textures around it bend
  * and the transforms of objects do not. */
-static Vec3 irid_point(const Stack *k)
-{
-    return k->leaf->frame != NULL ? k->leaf->p : k->s->at.point;
-}
-
 static void remember_mirror(Stack *k, const Finish *f, Vec3 n, Rgb share)
 {
     if (rgb_is_zero(share) || k->s->t->tracing->quality < 8)
         return;
-    Mirror m = { f, n, irid_point(k), share, k->s->path->weight * k->through * mirror_weight(f, share) };
+    Mirror m = { f, n, k->s->at.point, share, k->s->path->weight * k->through * mirror_weight(f, share) };
     if (k->n_mirrors < MIRRORS_MAX)
         k->mirror[k->n_mirrors++] = m;
     else
@@ -138,7 +133,7 @@ static void shade_layer(Stack *k, const Texture *layer)
     } else {
         share = reflectivity(s, f, n, rgb_of(c));
         remember_mirror(k, f, n, share);
-        Layer at = { f, n, irid_point(k), rgb_of(c), (double)opacity(tracing, c) };
+        Layer at = { f, n, k->s->at.point, rgb_of(c), (double)opacity(tracing, c) };
         Rgb glow = rgb_add(rgb_mul(f->ambient, s->t->world->globals.ambient_light), f->emission);
         Rgb light = rgb_scaled(rgb_mul(rgb_of(c), glow), (float)at.opacity);
         light = rgb_add(light, shade_lights(s, &at));
@@ -157,7 +152,6 @@ static bool same_normal(Vec3 a, Vec3 b)
 static void shade_leaf(void *user, const TextureLeaf *leaf)
 {
     Shade *s = user;
-    TextureContext before = s->at;
     Stack k;                                   /* not cleared: the mirrors are large, and few */
     k.s = s;
     k.leaf = leaf;
@@ -180,7 +174,6 @@ static void shade_leaf(void *user, const TextureLeaf *leaf)
         c = (Colour){ c.r + light.r, c.g + light.g, c.b + light.b, 0, c.t };
     }
     s->sum = colour_add(s->sum, colour_scaled(c, leaf->weight));
-    s->at = before;
 }
 
 /* ---- a hit ---- */
