@@ -76,13 +76,13 @@ static Path passed_on(const Shade *s, const Crossing *c, Vec3 d, double weight)
 static Colour bent(const Shade *s, const Crossing *c, Vec3 n, double ratio, double wavelength, double weight, bool *total)
 {
     Vec3 d = s->path->d;
-    if (dot(n, d) > 0)
-        n = negated(n);
     double k = fabs(dot(n, d));
     double rest = 1 + ratio * ratio * (k * k - 1);
     *total = rest < 0;
     if (rest < 0)
         return shade_reflect(s, n, weight, s->path->alpha);
+    if (dot(n, d) > 0)                         /* POV: not before: what is mirrored knows a normal that points away */
+        n = negated(n);
     Path path = passed_on(s, c, add(scaled(d, ratio), scaled(n, ratio * k - sqrt(rest))), weight);
     path.wavelength = wavelength;
     return trace_path(s->t, &path);
