@@ -4,10 +4,11 @@
 #include <stddef.h>
 
 #define SHAPES(ROW) \
-    ROW(blob) ROW(height_field) ROW(julia_fractal) ROW(lathe) ROW(ovus) ROW(prism) ROW(sor) ROW(sphere_sweep) ROW(text) ROW(isosurface) ROW(box) \
-    ROW(cone) ROW(cylinder) ROW(disc) ROW(plane) ROW(smooth_triangle) ROW(sphere) ROW(torus) \
-    ROW(triangle) ROW(mesh) ROW(mesh2) ROW(quadric) ROW(cubic) ROW(quartic) ROW(poly) ROW(polynomial) \
-    ROW(polygon) ROW(bicubic_patch) ROW(superellipsoid)
+    ROW(blob) ROW(height_field) ROW(julia_fractal) ROW(lathe) ROW(ovus) ROW(prism) ROW(sor) \
+    ROW(sphere_sweep) ROW(text) ROW(isosurface) ROW(parametric) ROW(box) ROW(cone) ROW(cylinder) \
+    ROW(disc) ROW(plane) ROW(smooth_triangle) ROW(sphere) ROW(torus) ROW(triangle) ROW(mesh) ROW(mesh2) \
+    ROW(quadric) ROW(cubic) ROW(quartic) ROW(poly) ROW(polynomial) ROW(polygon) ROW(bicubic_patch) \
+    ROW(superellipsoid)
 
 #define PATTERNS(ROW) \
     ROW(bozo) ROW(spotted) ROW(bumps) ROW(dents) ROW(granite) ROW(wrinkles) ROW(agate) ROW(marble) \
