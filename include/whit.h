@@ -59,6 +59,8 @@ void whit_show(Whit *w, WhitShow *show, void *user);
 bool whit_load(Whit *w, const char *path);     /* parse and compile; false: see the messages and whit_exit_code */
 bool whit_load_text(Whit *w, const char *name, const char *text, size_t bytes);
 bool whit_check(Whit *w, const char *path);    /* parse only */
+/* From a signal handler or another thread: parsing fails where it stands, rendering ends without a picture. */
+void whit_interrupt(Whit *w);
 bool whit_render(Whit *w, WhitProgress *progress, void *user);
 WhitImage whit_image(const Whit *w);
 

@@ -24,6 +24,7 @@ struct Whit {
     Query *query;
     bool loaded;
     int exit_code;
+    volatile int interrupted;                  /* a sig_atomic_t, which is int */
     float *rgba;
     WhitShow *show;
     void *show_user;
@@ -148,7 +149,7 @@ static SdlOptions sdl_options(Whit *w, Str path)
         .library_path = strings(a, o->library_path, o->n_library_paths), .n_library_paths = (uint32_t)o->n_library_paths,
         .allow_read = strings(a, o->allow_read, o->n_allow_read), .n_allow_read = (uint32_t)o->n_allow_read,
         .allow_write = strings(a, o->allow_write, o->n_allow_write), .n_allow_write = (uint32_t)o->n_allow_write,
-        .strict = o->strict, .input_name = name,
+        .strict = o->strict, .interrupted = &w->interrupted, .input_name = name,
     };
 }
 
@@ -271,6 +272,19 @@ static void prepare_picture(Whit *w, void *with)
         memcpy(w->rgba + 4 * i, (const float[4]){ 0, 0, 0, 1 }, 4 * sizeof *w->rgba);
 }
 
+void whit_interrupt(Whit *w)
+{
+    w->interrupted = 1;
+}
+
+typedef struct Telling { const Whit *w; WhitProgress *progress; void *user; } Telling;
+
+static bool tell_progress(void *user, int done, int all)
+{
+    const Telling *t = user;
+    return !t->w->interrupted && (!t->progress || t->progress(t->user, done, all));
+}
+
 bool whit_render(Whit *w, WhitProgress *progress, void *user)
 {
     const WhitOptions *o = &w->options;
@@ -283,7 +297,7 @@ bool whit_render(Whit *w, WhitProgress *progress, void *user)
         .jitter = o->jitter == 0 ? 1 : o->jitter < 0 ? 0 : o->jitter,
         .antialias_gamma = o->antialias_gamma > 0 ? o->antialias_gamma : 2.5, .output_alpha = o->output_alpha,
     };
-    return w->loaded && attempt(w, prepare_picture, &r) && render(&w->world, &r, w->rgba, progress, user);
+    return w->loaded && attempt(w, prepare_picture, &r) && render(&w->world, &r, w->rgba, tell_progress, &(Telling){ w, progress, user });
 }
 
 WhitImage whit_image(const Whit *w)

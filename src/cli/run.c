@@ -15,12 +15,15 @@
 #include "cli/settings.h"
 
 static volatile sig_atomic_t interrupted;
+static Whit *volatile running;                 /* what a signal interrupts */
 
 static void on_signal(int number)
 {
     if (interrupted)                           /* the second time: at once */
         _exit(128 + number);
     interrupted = 1;
+    if (running)
+        whit_interrupt(running);
 }
 
 static void show(void *user, const WhitMessage *m)
@@ -285,10 +288,11 @@ static int frame_render(const Settings *s, WhitOptions *options, const WhitFileO
         return CLI_IO;
     }
     whit_show(w, show, (void *)s);
+    running = w;
     double start = now(), loaded = start;
     int code = CLI_OK;
     if (!load(w, s)) {
-        code = whit_exit_code(w);
+        code = interrupted ? CLI_INTERRUPTED : whit_exit_code(w);
     } else if (s->explain) {
         fputs(whit_explain(w), stdout);
     } else if (!s->check) {
@@ -299,6 +303,7 @@ static int frame_render(const Settings *s, WhitOptions *options, const WhitFileO
         fputs(whit_summary(w), stderr);
     if (s->stats)
         stats(loaded - start, now() - loaded);
+    running = NULL;
     whit_free(w);
     return code;
 }
