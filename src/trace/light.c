@@ -138,7 +138,7 @@ static Rgb iridescence(const Shade *s, const Layer *layer, Vec3 l)
 {
     if (!(layer->finish->irid > 0))
         return rgb_grey(1);
-    return finish_iridescence(layer->finish, layer->p, fabs(dot(layer->n, l)), fabs(dot(layer->n, s->path->d)),
+    return finish_iridescence(layer->finish, s->at.point, fabs(dot(layer->n, l)), fabs(dot(layer->n, s->path->d)),
                               s->t->world->globals.irid_wavelength, &s->at);
 }
 

@@ -84,10 +84,14 @@ typedef struct Shade {
 typedef struct Layer {
     const Finish *finish;
     Vec3 n;                                    /* perturbed */
-    Vec3 p;                                    /* where the texture is asked, for iridescence */
     Rgb colour;
     double opacity;
 } Layer;
+
+typedef struct Polish {                        /* of a layer, for what it mirrors */
+    const Finish *finish;
+    Vec3 n;                                    /* perturbed */
+} Polish;
 
 typedef struct Beam {                          /* light as it arrives: unshadowed */
     Vec3 l;                                    /* unit, towards the light */
@@ -103,9 +107,9 @@ Colour shade_hit(Tracer *t, const Path *path, const Hit *hit, int level);
 
 /* secondary.c: rays that leave a surface. */
 Vec3 reflected(Vec3 d, Vec3 n, Vec3 raw);      /* never below the surface that `raw` stands on */
-Colour shade_reflect(const Shade *s, Vec3 n, double weight, bool alpha);
-/* Adds what passes through the surface to sum; returns whether all of it is reflected. */
-bool shade_transmit(const Shade *s, Vec3 n, Rgb filter, bool filtered, double through, Colour *sum);
+Colour shade_reflect(const Shade *s, const Polish *polish, double weight, bool alpha);     /* iridescent, not weighed */
+/* Adds what passes through the surface to sum; returns whether all of it is reflected. top: of the top layer. */
+bool shade_transmit(const Shade *s, const Polish *top, Rgb filter, bool filtered, double through, Colour *sum);
 
 /* light.c */
 /* from: the light's place, or a sample of its area. False: no light. */

@@ -14,14 +14,19 @@ Vec3 reflected(Vec3 d, Vec3 n, Vec3 raw)
     return normalized(r);
 }
 
-Colour shade_reflect(const Shade *s, Vec3 n, double weight, bool alpha)
+Colour shade_reflect(const Shade *s, const Polish *polish, double weight, bool alpha)
 {
-    Vec3 d = reflected(s->path->d, n, s->surface->normal);
+    Vec3 d = reflected(s->path->d, polish->n, s->surface->normal);
     Path path = {
         .o = surface_offset(s->surface, d), .d = d, .reach = INFINITY, .in = s->path->in, .weight = weight,
         .wavelength = s->path->wavelength, .skip = PRIM_NO_REFLECTION, .level = s->level, .alpha = alpha
     };
-    return trace_path(s->t, &path);
+    Colour c = trace_path(s->t, &path);
+    if (!(polish->finish->irid > 0))
+        return c;
+    Rgb film = finish_iridescence(polish->finish, s->at.point, fabs(dot(polish->n, d)), fabs(dot(polish->n, s->path->d)),
+                                  s->t->world->globals.irid_wavelength, &s->at);
+    return (Colour){ c.r * film.r, c.g * film.g, c.b * film.b, c.f, c.t };
 }
 
 typedef struct Crossing {                      /* from one body into another */
@@ -73,14 +78,14 @@ static Path passed_on(const Shade *s, const Crossing *c, Vec3 d, double weight)
 }
 
 /* One bent ray; `total`: it could not leave, and was mirrored. */
-static Colour bent(const Shade *s, const Crossing *c, Vec3 n, double ratio, double wavelength, double weight, bool *total)
+static Colour bent(const Shade *s, const Crossing *c, const Polish *top, double ratio, double wavelength, double weight, bool *total)
 {
-    Vec3 d = s->path->d;
+    Vec3 d = s->path->d, n = top->n;
     double k = fabs(dot(n, d));
     double rest = 1 + ratio * ratio * (k * k - 1);
     *total = rest < 0;
     if (rest < 0)
-        return shade_reflect(s, n, weight, s->path->alpha);
+        return shade_reflect(s, top, weight, s->path->alpha);
     if (dot(n, d) > 0)                         /* POV: not before: what is mirrored knows a normal that points away */
         n = negated(n);
     Path path = passed_on(s, c, add(scaled(d, ratio), scaled(n, ratio * k - sqrt(rest))), weight);
@@ -94,14 +99,14 @@ static double ratio_at(const Crossing *c, double wavelength)
     return c->ratio * pow(c->dispersion, -(wavelength - 555) / 350);
 }
 
-static Colour spectrum(const Shade *s, const Crossing *c, Vec3 n, double weight)
+static Colour spectrum(const Shade *s, const Crossing *c, const Polish *top, double weight)
 {
     Rgb sum = rgb_grey(0);
     double width = 350.0 / c->bands;
     for (int i = 0; i < c->bands; i++) {
         double wavelength = 380 + width * (i + 0.5);
         bool total;
-        Colour band = bent(s, c, n, ratio_at(c, wavelength), wavelength, weight, &total);
+        Colour band = bent(s, c, top, ratio_at(c, wavelength), wavelength, weight, &total);
         sum = rgb_add(sum, rgb_mul(rgb_of(band), hue_of_band(s->t->tracing, wavelength, width)));
     }
     sum = rgb_scaled(sum, 1 / (float)c->bands);
@@ -118,7 +123,7 @@ static Rgb dimming(const Shade *s)
     return dim;
 }
 
-bool shade_transmit(const Shade *s, Vec3 n, Rgb filter, bool filtered, double through, Colour *sum)
+bool shade_transmit(const Shade *s, const Polish *top, Rgb filter, bool filtered, double through, Colour *sum)
 {
     Crossing c;
     cross_into(s, &c);
@@ -130,11 +135,11 @@ bool shade_transmit(const Shade *s, Vec3 n, Rgb filter, bool filtered, double th
         path.straight = true;
         seen = trace_path(s->t, &path);
     } else if (fabs(c.dispersion - 1) >= TINY && s->path->wavelength == 0) {
-        seen = spectrum(s, &c, n, weight);
+        seen = spectrum(s, &c, top, weight);
     } else {
         double wavelength = s->path->wavelength;
         double ratio = c.dispersion != 1 && wavelength != 0 ? ratio_at(&c, wavelength) : c.ratio;
-        seen = bent(s, &c, n, ratio, wavelength, weight, &total);
+        seen = bent(s, &c, top, ratio, wavelength, weight, &total);
     }
     Rgb dim = dimming(s);
     Rgb light = rgb_mul(rgb_of(seen), dim);

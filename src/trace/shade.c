@@ -4,8 +4,7 @@
 enum { MIRRORS_MAX = 8 };                      /* layers that reflect, kept until it is known what passes through */
 
 typedef struct Mirror {
-    const Finish *finish;
-    Vec3 n, p;
+    Polish polish;
     Rgb share;
     double weight;
 } Mirror;
@@ -72,26 +71,18 @@ static double mirror_weight(const Finish *f, Rgb share)
 
 static Rgb mirror_light(const Shade *s, const Mirror *m)
 {
-    Colour c = shade_reflect(s, m->n, m->weight, false);
-    Rgb seen = rgb_of(c);
-    if (m->finish->irid > 0) {
-        Vec3 d = reflected(s->path->d, m->n, s->surface->normal);
-        seen = rgb_mul(seen, finish_iridescence(m->finish, m->p, fabs(dot(m->n, d)), fabs(dot(m->n, s->path->d)),
-                                                s->t->world->globals.irid_wavelength, &s->at));
-    }
-    float e = m->finish->reflection_exponent;
+    Rgb seen = rgb_of(shade_reflect(s, &m->polish, m->weight, false));
+    float e = m->polish.finish->reflection_exponent;
     if (e != 1 && e != 0)
         seen = rgb(powf(seen.r, 1 / e), powf(seen.g, 1 / e), powf(seen.b, 1 / e));
     return rgb_mul(seen, m->share);
 }
 
-/* POV: the film of an iridescent finish is turbulent in scene space, which the chains of patterned textures around it bend
- * and the transforms of objects do not. */
 static void remember_mirror(Stack *k, const Finish *f, Vec3 n, Rgb share)
 {
     if (rgb_is_zero(share) || k->s->t->tracing->quality < 8)
         return;
-    Mirror m = { f, n, k->s->at.point, share, k->s->path->weight * k->through * mirror_weight(f, share) };
+    Mirror m = { { f, n }, share, k->s->path->weight * k->through * mirror_weight(f, share) };
     if (k->n_mirrors < MIRRORS_MAX)
         k->mirror[k->n_mirrors++] = m;
     else
@@ -133,7 +124,7 @@ static void shade_layer(Stack *k, const Texture *layer)
     } else {
         share = reflectivity(s, f, n, rgb_of(c));
         remember_mirror(k, f, n, share);
-        Layer at = { f, n, k->s->at.point, rgb_of(c), (double)opacity(tracing, c) };
+        Layer at = { f, n, rgb_of(c), (double)opacity(tracing, c) };
         Rgb glow = rgb_add(rgb_mul(f->ambient, s->t->world->globals.ambient_light), f->emission);
         Rgb light = rgb_scaled(rgb_mul(rgb_of(c), glow), (float)at.opacity);
         light = rgb_add(light, shade_lights(s, &at));
@@ -166,9 +157,9 @@ static void shade_leaf(void *user, const TextureLeaf *leaf)
     Colour c = { k.sum.r + k.reflected.r, k.sum.g + k.reflected.g, k.sum.b + k.reflected.b, 0, 0 };
     bool total = false;
     if (k.through > s->t->tracing->adc_bailout && s->t->tracing->quality >= 6)
-        total = shade_transmit(s, k.top, k.filter, k.filtered, k.through, &c);
+        total = shade_transmit(s, &(Polish){ leaf->top->finish, k.top }, k.filter, k.filtered, k.through, &c);
     for (uint32_t i = 0; i < k.n_mirrors; i++) {
-        if (total && same_normal(k.mirror[i].n, k.top))
+        if (total && same_normal(k.mirror[i].polish.n, k.top))
             continue;                          /* the same light came back already */
         Rgb light = mirror_light(s, &k.mirror[i]);
         c = (Colour){ c.r + light.r, c.g + light.g, c.b + light.b, 0, c.t };
