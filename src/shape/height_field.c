@@ -232,7 +232,7 @@ static void cell_hits(Line *l, uint32_t i, uint32_t k)
     Vec3 o = l->o, d = l->d;
     bool px = l->ix > 0, pz = l->iz > 0;
     double x0 = (i + !px - o.x) * l->ix, x1 = (i + px - o.x) * l->ix, z0 = (k + !pz - o.z) * l->iz, z1 = (k + pz - o.z) * l->iz;
-    double s0 = fmax(x0, z0), s1 = fmin(x1, z1);
+    double s0 = greater(x0, z0), s1 = lesser(x1, z1);
     if (!(s0 <= s1) || s1 < 0 || s0 > l->end)
         return;
     Corners c = { at(m, i, k), at(m, i + 1, k), at(m, i, k + 1), at(m, i + 1, k + 1) };
@@ -259,44 +259,59 @@ static void cell_hits(Line *l, uint32_t i, uint32_t k)
     straight(l, s0, g0, s1, g1, i, k, o.x + o.z + middle * across > i + k + 1);
 }
 
-typedef struct { uint32_t level, x, z; } Square;
+/* A square and the stretch of the line over it. */
+typedef struct { double s0, s1; uint32_t level, x, z; } Square;
 
-/* Conservative: a square's box is a little larger than it is. */
-static bool may_meet(const Line *l, Square q)
+static bool may_meet(const Line *l, const Square *q)
 {
-    static const double pad = 1e-6, y_pad = 0.01;
+    static const double pad = 0.01;            /* covers the rounding of y */
     const Params *m = &l->f->map;
-    uint32_t side = 1u << q.level, ex = (q.x + 1) << q.level, ez = (q.z + 1) << q.level;
-    double xa = (ex - side - pad - l->o.x) * l->ix, xb = (fmin(ex, m->w - 1) + pad - l->o.x) * l->ix;
-    double za = (ez - side - pad - l->o.z) * l->iz, zb = (fmin(ez, m->h - 1) + pad - l->o.z) * l->iz;
-    double s0 = fmax(fmax(fmin(xa, xb), fmin(za, zb)), 0), s1 = fmin(fmin(fmax(xa, xb), fmax(za, zb)), l->end);
-    if (s0 > s1 || s1 < l->start || s0 > l->limit)
+    if (!(q->s0 <= q->s1) || q->s1 < l->start || q->s0 > l->limit)
         return false;
-    Range r = m->range[q.level][(size_t)q.z * squares(m->w, q.level) + q.x];
-    double ya = l->o.y + s0 * l->d.y, yb = l->o.y + s1 * l->d.y;
-    return fmin(ya, yb) <= r.hi + y_pad && fmax(ya, yb) >= r.lo - y_pad;
+    uint32_t w = squares(m->w, q->level);
+    if (q->x >= w || q->z >= squares(m->h, q->level))
+        return false;
+    Range r = m->range[q->level][(size_t)q->z * w + q->x];
+    double ya = l->o.y + q->s0 * l->d.y, yb = l->o.y + q->s1 * l->d.y;
+    return lesser(ya, yb) <= r.hi + pad && greater(ya, yb) >= r.lo - pad;
+}
+
+/* The quarters of a square in the order in which the line is over them: it is cut at the two middle lines. Those are lines of the
+ * grid, so the cuts are the numbers that cells use. */
+static int quarters(const Line *l, const Square *q, Square out[3])
+{
+    uint32_t level = q->level - 1, near_x = l->ix < 0, near_z = l->iz < 0;
+    double mx = ((2 * q->x + 1) << level) - l->o.x, mz = ((2 * q->z + 1) << level) - l->o.z;
+    double sx = mx * l->ix, sz = mz * l->iz, first = lesser(sx, sz), last = greater(sx, sz), at = q->s0;
+    int n = 0;
+    for (int i = 0; i < 3; i++) {
+        double to = i == 0 ? first : i == 1 ? last : q->s1;
+        to = lesser(to, q->s1);
+        if (to < at || (to == at && i < 2))
+            continue;
+        out[n++] = (Square){ at, to, level, 2 * q->x + (at < sx ? near_x : !near_x), 2 * q->z + (at < sz ? near_z : !near_z) };
+        at = to;
+    }
+    return n;
 }
 
 static void descend(Line *l)
 {
     const Params *m = &l->f->map;
-    Square stack[3 * MOST_LEVELS + 1] = { { m->top, 0, 0 } };
-    uint32_t n = 1, near_x = l->ix < 0, near_z = l->iz < 0;
+    Square stack[2 * MOST_LEVELS + 3] = { { 0, l->end, m->top, 0, 0 } }, part[3];
+    uint32_t n = 1;
     while (n > 0) {
         Square q = stack[--n];
-        if (!may_meet(l, q))
+        if (!may_meet(l, &q))
             continue;
-        uint32_t level = q.level - 1, w = level > 0 ? squares(m->w, level) : m->w - 1, h = level > 0 ? squares(m->h, level) : m->h - 1;
-        for (uint32_t c = 0; c < 4; c++) {     /* nearest first; for the stack, last */
-            uint32_t at_c = level > 0 ? 3 - c : c;
-            Square child = { level, 2 * q.x + ((at_c & 1) ^ near_x), 2 * q.z + ((at_c >> 1) ^ near_z) };
-            if (child.x >= w || child.z >= h)
-                continue;
-            if (level > 0)
-                stack[n++] = child;
-            else
-                cell_hits(l, child.x, child.z);
-        }
+        int parts = quarters(l, &q, part);
+        if (q.level > 1)
+            while (parts > 0)                  /* the nearest on top */
+                stack[n++] = part[--parts];
+        else
+            for (int i = 0; i < parts; i++)
+                if (part[i].x < m->w - 1 && part[i].z < m->h - 1 && part[i].s0 <= l->limit)
+                    cell_hits(l, part[i].x, part[i].z);
     }
 }
 

@@ -250,9 +250,38 @@ static Vec4 plain_start(const Julia *j, Vec3 p)
     return start_of(j, odd ? vec3(p.x, p.y, p.y) : p);
 }
 
+/* Up to n steps of a quaternion orbit: how many before |z|^2 exceeds the limit. *product: of |z|^2 along it. */
+static int quaternion_orbit(const Julia *j, Vec4 *orbit, double *norm, double *product)
+{
+    Vec4 z = *orbit, c = j->p.c;
+    int k = 0, n = j->p.n;
+    double all = 1;
+    if (j->p.cube) {
+        for (; k < n && (*norm = norm2(z)) <= j->escape; k++) {
+            all *= *norm;
+            z = next(j, z);
+        }
+    } else {
+        for (; k < n; k++) {
+            double xx = z.x * z.x, yy = z.y * z.y + z.z * z.z + z.t * z.t, x2 = 2 * z.x;
+            *norm = xx + yy;
+            if (!(*norm <= j->escape))
+                break;
+            all *= *norm;
+            z = (Vec4){ xx - yy + c.x, x2 * z.y + c.y, x2 * z.z + c.z, x2 * z.t + c.t };
+        }
+    }
+    *orbit = z;
+    *product = all;
+    return k;
+}
+
 static bool holds(const Julia *j, Vec3 p)
 {
     Vec4 z = plain_start(j, p);
+    double norm, product;
+    if (!j->p.hypercomplex)
+        return quaternion_orbit(j, &z, &norm, &product) == j->p.n;
     for (int i = 0; i < j->p.n; i++) {
         if (!(norm2(z) <= j->escape))
             return false;
@@ -271,10 +300,24 @@ static Vec3 hyper_gradient(const Julia *j, Vec4 product, Vec4 last, int k)
 }
 
 /* Is p inside? If not, `step` is what the ray may go on by. */
-static bool holds_or_step(const Julia *j, Vec3 p, Vec3 d, double *step)
+static bool quaternion_step(const Julia *j, Vec3 p, double *step)
+{
+    Vec4 z = start_of(j, p);
+    double norm = 0, product;
+    int k = quaternion_orbit(j, &z, &norm, &product);
+    *step = j->step;
+    if (k == j->p.n)
+        return true;
+    double estimate = j->p.cube ? log(norm) / (pow(3, k + 1) * sqrt(product)) : ldexp(log(norm) / sqrt(product), -k - 1);
+    if (estimate > *step && isfinite(estimate))
+        *step = estimate;
+    return false;
+}
+
+static bool hyper_step(const Julia *j, Vec3 p, Vec3 d, double *step)
 {
     Vec4 z = start_of(j, p), product = { 1, 0, 0, 0 };
-    double size = 1, factor = 1, n = 0;
+    double n = 0;
     int k = 0;
     *step = j->step;
     for (; k < j->p.n; k++) {
@@ -282,22 +325,11 @@ static bool holds_or_step(const Julia *j, Vec3 p, Vec3 d, double *step)
         if (!(n <= j->escape))
             break;
         Vec4 f = mapped(j, z);
-        if (j->p.hypercomplex)
-            product = k == 0 ? z : hyper_times(product, slope_like(j, z, f));
-        else {
-            size *= sqrt(n);
-            factor *= j->p.cube ? 3 : 2;
-        }
+        product = k == 0 ? z : hyper_times(product, slope_like(j, z, f));
         z = shifted(j, f);
     }
     if (k == j->p.n)
         return true;
-    if (!j->p.hypercomplex) {
-        double estimate = log(n) / (factor * (j->p.cube ? 3 : 2) * size);
-        if (estimate > *step && isfinite(estimate))
-            *step = estimate;
-        return false;
-    }
     double slope = dot(hyper_gradient(j, product, z, k), d);
     if (slope < -1e-8) {
         double estimate = n / (-2 * slope);
@@ -305,6 +337,11 @@ static bool holds_or_step(const Julia *j, Vec3 p, Vec3 d, double *step)
             *step = estimate;
     }
     return false;
+}
+
+static bool holds_or_step(const Julia *j, Vec3 p, Vec3 d, double *step)
+{
+    return j->p.hypercomplex ? hyper_step(j, p, d, step) : quaternion_step(j, p, step);
 }
 
 /* ---- along a ray ---- */

@@ -186,7 +186,7 @@ void hit_add(HitSink *sink, double t, uint32_t part)
 
 double hit_limit(const HitSink *sink)
 {
-    return sink->best.t;
+    return sink->stop ? -INFINITY : sink->best.t;
 }
 
 /* ---- rays ---- */

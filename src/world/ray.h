@@ -34,7 +34,7 @@ typedef struct HitSink HitSink;
 void hit_add(HitSink *sink, double t, uint32_t part);
 void hit_add_uv(HitSink *sink, double t, uint32_t part, double u, double v);
 
-/* What lies beyond this t cannot win any more; a hint for skipping work. */
+/* What lies beyond this t cannot win any more; a hint for skipping work. -INFINITY: nothing more is wanted. */
 double hit_limit(const HitSink *sink);
 
 enum { SURFACE_MAX_TEXTURES = 16 };
