@@ -113,13 +113,11 @@ static void check_rainbow(Parser *p, Bow *b)
         parse_fail(p, "Rainbow's up and direction vector are co-linear.");
     r->up = normalized(cross(r->antisolar, right));
     if (!b->has_arc)
-        r->arc_angle = 360;                    /* POV: a falloff_angle alone does nothing visible */
+        r->arc_angle = r->falloff_angle = 360; /* POV: a falloff_angle alone does nothing visible */
     else if (!b->has_falloff)
         r->falloff_angle = r->arc_angle;
-    if (b->has_arc && b->has_falloff && r->arc_angle < r->falloff_angle)
+    if (r->arc_angle < r->falloff_angle)
         parse_fail(p, "Arc angle is smaller than falloff angle in rainbow.");
-    if (!b->has_falloff && !b->has_arc)
-        r->falloff_angle = 360;
 }
 
 const RainbowDef *rainbow_block(Parser *p)

@@ -104,10 +104,13 @@ static Vec3 scale_factors(Parser *p)
 static Affine matrix(Parser *p)
 {
     double rows[12];
-    parse_expect(p, TOK_LESS);
-    for (int i = 0; i < 12; i++)
-        rows[i] = i == 0 ? parse_float(p) : parse_next_float(p);
-    parse_expect(p, TOK_GREATER);
+    Reader *r = &p->reader[p->n_readers - 1];
+    if (p->have || !r->is_file || !lex_numbers_literal(&r->lexer, 12, rows)) {
+        parse_expect(p, TOK_LESS);
+        for (int i = 0; i < 12; i++)
+            rows[i] = i == 0 ? parse_float(p) : parse_next_float(p);
+        parse_expect(p, TOK_GREATER);
+    }
     for (int column = 0; column < 3; column++)
         if (rows[column] == 0 && rows[3 + column] == 0 && rows[6 + column] == 0)
             parse_warn(p, "Illegal matrix column: Scale by 0.0. Changed to 1.0.");

@@ -151,6 +151,15 @@ static void apply_albedo(Finish *f)
     f->diffuse_albedo = f->phong_albedo = f->specular_albedo = false;
 }
 
+static uint32_t hash_of(const Finish *f)
+{
+    uint32_t word[sizeof *f / sizeof(uint32_t)], h = 0;
+    memcpy(word, f, sizeof word);
+    for (size_t i = 0; i < sizeof word / sizeof *word; i++)
+        h = (h ^ word[i]) * 0x9e3779b1u;
+    return h >> 16;
+}
+
 const Finish *finish_block(Parser *p, const Finish *base)
 {
     block_open(p, "finish");
@@ -166,7 +175,7 @@ const Finish *finish_block(Parser *p, const Finish *base)
         return base;
     apply_albedo(&f);
     Blocks *b = parse_blocks(p);
-    uint32_t h = str_hash((Str){ (const char *)&f, sizeof f }) % FINISH_CACHE;
+    uint32_t h = hash_of(&f) % FINISH_CACHE;
     if (b->finish_cache[h] == NULL || memcmp(b->finish_cache[h], &f, sizeof f) != 0)
         b->finish_cache[h] = arena_copy(parse_arena(p), &f, sizeof f);
     return b->finish_cache[h];

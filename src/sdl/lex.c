@@ -355,6 +355,17 @@ bool lex_vector_literal(Lexer *lexer, bool inside, double out[3])
     return true;
 }
 
+bool lex_numbers_literal(Lexer *lexer, int n, double *out)
+{
+    Lexer l = *lexer;
+    const char *s = fast_mark(&l, l.at, '<');
+    if (!s || !fast_numbers(&l, &s, n, out))
+        return false;
+    l.at = s;
+    *lexer = l;
+    return true;
+}
+
 bool lex_pigment_literal(Lexer *lexer, bool texture, Colour *out)
 {
     Lexer l = *lexer;

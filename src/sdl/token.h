@@ -42,6 +42,7 @@ void lex_next(Parser *p, Lexer *l, Token *out);
 /* `<a, b, c>` of plain literals, with nothing behind it that could go on with the expression: takes it, or takes nothing.
  * inside: the `<` has been taken already. */
 bool lex_vector_literal(Lexer *l, bool inside, double out[3]);
+bool lex_numbers_literal(Lexer *l, int n, double *out);     /* n of them, behind a '<' that is still to come: of matrix */
 /* `{ rgb <a,b,c> }` behind `pigment`, or `{ pigment { rgb <a,b,c> } }` behind `texture`; rgbf, rgbt, rgbft and a `color` before
  * them too. Takes it whole or takes nothing. */
 bool lex_pigment_literal(Lexer *l, bool texture, Colour *out);
