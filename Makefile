@@ -126,21 +126,6 @@ fuzz:
 	cd $(FUZZ)/work && ../fuzz_parse -max_total_time=$(FUZZ_TIME) -timeout=10 -rss_limit_mb=2000 -max_len=8192 -dict=../words \
 	    -artifact_prefix=../found/ ../corpus ../seeds
 
-
-# libFuzzer over the front end (clang), FUZZ_TIME seconds; what it finds lands in build/fuzz. FUZZ_SEEDS: more folders of scenes.
-FUZZ_TIME ?= 60
-FUZZ_CC   ?= clang
-fuzz:
-	+@$(MAKE) --no-print-directory BUILD=$(BUILD)/fuzz CC="$(FUZZ_CC)" CFLAGS="-O1 -g -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined" \
-	    LDFLAGS="-fsanitize=address,undefined" $(BUILD)/fuzz/fuzz_scene
-	@mkdir -p $(BUILD)/fuzz/corpus
-	@sed -n 's/^KEYWORD(\([a-z0-9_]*\),.*/"\1"/p' src/sdl/keyword.def >$(BUILD)/fuzz/dictionary
-	@cd $(BUILD)/fuzz && ./fuzz_scene -max_total_time=$(FUZZ_TIME) -dict=dictionary -timeout=10 -rss_limit_mb=2048 -max_len=4096 \
-	    -print_final_stats=1 $(FUZZ_FLAGS) corpus $(CURDIR)/tests/fuzz/found $(CURDIR)/scenes $(FUZZ_SEEDS)
-
-$(BUILD)/fuzz_scene: tests/fuzz/fuzz_scene.c $(BUILD)/libwhit.a
-	$(CC) $(STD) $(WARN) $(CFLAGS) -fsanitize=fuzzer -o $@ $^ $(LDFLAGS) $(LIBS)
-
 clean:
 	rm -rf $(BUILD)
 
