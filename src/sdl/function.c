@@ -2,8 +2,6 @@
  *
  * 01-language, section 17. The expression goes straight into a FuncBuilder; identifiers of the scene are frozen with the value they
  * have now. Pigments, patterns, transforms and splines become FuncHosts. */
-#include <string.h>
-
 #include "sdl/blocks.h"
 #include "sdl/parser.h"
 
@@ -223,20 +221,11 @@ static FuncNode identifier(Parser *p, Scope *s)
         parse_skip(p);
         return function_call(p, s, f);
     }
-    if (v == NULL || v->kind != VALUE_NUMBER)
-        parse_expected(p, "numeric expression");
-    double number[5];
-    int terms = v->terms;
-    memcpy(number, v->v, sizeof number);
-    if (terms == 1) {
-        parse_skip(p);
-        return func_number(s->b, number[0]);
-    }
+    if (v == NULL || v->kind != VALUE_NUMBER || v->terms != 1)
+        parse_expected(p, "operand");
+    double number = v->v[0];
     parse_skip(p);
-    if (!parse_accept(p, TOK_DOT))
-        parse_fail(p, "Float expected but vector or color expression found.");
-    FuncPart part = part_of(p, terms);
-    return func_number(s->b, part == FUNC_GREY ? 0.297 * number[0] + 0.589 * number[1] + 0.114 * number[2] : number[part]);
+    return func_number(s->b, number);
 }
 
 static FuncNode operand(Parser *p, Scope *s)
@@ -263,7 +252,7 @@ static FuncNode operand(Parser *p, Scope *s)
     }
     if (unary_call(p, s, kind, &out) || many_call(p, s, kind, &out))
         return out;
-    parse_expected(p, "numeric expression");
+    parse_expected(p, "operand");
 }
 
 /* ---- operators, from the tightest to the loosest ---- */
