@@ -262,55 +262,81 @@ static void cell_hits(Line *l, uint32_t i, uint32_t k)
 /* A square and the stretch of the line over it. */
 typedef struct { double s0, s1; uint32_t level, x, z; } Square;
 
-static bool may_meet(const Line *l, const Square *q)
+/* Could the line meet the ground in this square, or cell, of the level below `level`? */
+static bool may_meet(const Line *l, uint32_t level, uint32_t x, uint32_t z, double ya, double yb)
 {
     static const double pad = 0.01;            /* covers the rounding of y */
     const Params *m = &l->f->map;
-    if (!(q->s0 <= q->s1) || q->s1 < l->start || q->s0 > l->limit)
+    double lo = lesser(ya, yb) - pad, hi = greater(ya, yb) + pad;
+    if (level > 0) {
+        uint32_t w = squares(m->w, level);
+        if (x >= w || z >= squares(m->h, level))
+            return false;
+        Range r = m->range[level][(size_t)z * w + x];
+        return lo <= r.hi && hi >= r.lo;
+    }
+    if (x >= m->w - 1 || z >= m->h - 1)
         return false;
-    uint32_t w = squares(m->w, q->level);
-    if (q->x >= w || q->z >= squares(m->h, q->level))
-        return false;
-    Range r = m->range[q->level][(size_t)q->z * w + q->x];
-    double ya = l->o.y + q->s0 * l->d.y, yb = l->o.y + q->s1 * l->d.y;
-    return lesser(ya, yb) <= r.hi + pad && greater(ya, yb) >= r.lo - pad;
+    const uint16_t *near = m->height + (size_t)z * m->w + x, *far = near + m->w;
+    int a = near[0] < near[1] ? near[0] : near[1], b = far[0] < far[1] ? far[0] : far[1];
+    int c = near[0] < near[1] ? near[1] : near[0], d = far[0] < far[1] ? far[1] : far[0];
+    return lo <= (c > d ? c : d) && hi >= (a < b ? a : b);
 }
 
-/* The quarters of a square in the order in which the line is over them: it is cut at the two middle lines. Those are lines of the
- * grid, so the cuts are the numbers that cells use. */
-static int quarters(const Line *l, const Square *q, Square out[3])
+/* The quarters of a square that the line may meet, nearest first. It is cut at the two middle lines; those are lines of the grid,
+ * so the cuts are the numbers that cells use. */
+static uint32_t quarters(const Line *l, const Square *q, Square out[3])
 {
-    uint32_t level = q->level - 1, near_x = l->ix < 0, near_z = l->iz < 0;
+    uint32_t level = q->level - 1, n = 0, far_x = l->ix > 0, far_z = l->iz > 0;
     double mx = ((2 * q->x + 1) << level) - l->o.x, mz = ((2 * q->z + 1) << level) - l->o.z;
-    double sx = mx * l->ix, sz = mz * l->iz, first = lesser(sx, sz), last = greater(sx, sz), at = q->s0;
-    int n = 0;
+    double sx = mx * l->ix, sz = mz * l->iz, first = lesser(sx, sz), last = greater(sx, sz);
+    const double cut[4] = { q->s0, lesser(greater(first, q->s0), q->s1), lesser(greater(last, q->s0), q->s1), q->s1 };
     for (int i = 0; i < 3; i++) {
-        double to = i == 0 ? first : i == 1 ? last : q->s1;
-        to = lesser(to, q->s1);
-        if (to < at || (to == at && i < 2))
+        double s0 = cut[i], s1 = cut[i + 1];
+        if (!(s0 < s1) || s1 < l->start || s0 > l->limit)
             continue;
-        out[n++] = (Square){ at, to, level, 2 * q->x + (at < sx ? near_x : !near_x), 2 * q->z + (at < sz ? near_z : !near_z) };
-        at = to;
+        uint32_t x = 2 * q->x + (far_x ^ (s0 < sx)), z = 2 * q->z + (far_z ^ (s0 < sz));
+        if (may_meet(l, level, x, z, l->o.y + s0 * l->d.y, l->o.y + s1 * l->d.y))
+            out[n++] = (Square){ s0, s1, level, x, z };
     }
     return n;
 }
 
+/* The least square that holds the stretch from s0 to s1, with room for rounding. */
+static Square first_square(const Line *l, double s0, double s1)
+{
+    static const double room = 1e-6;
+    const Params *m = &l->f->map;
+    double xa = l->o.x + s0 * l->d.x, xb = l->o.x + s1 * l->d.x, za = l->o.z + s0 * l->d.z, zb = l->o.z + s1 * l->d.z;
+    uint32_t x0 = (uint32_t)greater(lesser(xa, xb) - room, 0), x1 = (uint32_t)lesser(greater(xa, xb) + room, m->w - 2);
+    uint32_t z0 = (uint32_t)greater(lesser(za, zb) - room, 0), z1 = (uint32_t)lesser(greater(za, zb) + room, m->h - 2);
+    uint32_t level = 1;
+    x0 = x0 > x1 ? x1 : x0;                    /* along the far side */
+    z0 = z0 > z1 ? z1 : z0;
+    while (x0 >> level != x1 >> level || z0 >> level != z1 >> level)
+        level++;
+    return (Square){ s0, s1, level, x0 >> level, z0 >> level };
+}
+
 static void descend(Line *l)
 {
-    const Params *m = &l->f->map;
-    Square stack[2 * MOST_LEVELS + 3] = { { 0, l->end, m->top, 0, 0 } }, part[3];
+    Square stack[2 * MOST_LEVELS + 3], part[3];
     uint32_t n = 1;
+    double s0 = greater(0, l->start), s1 = lesser(l->end, l->limit);
+    if (!(s0 <= s1))
+        return;
+    stack[0] = first_square(l, s0, s1);
     while (n > 0) {
         Square q = stack[--n];
-        if (!may_meet(l, &q))
+        if (q.s0 > l->limit)
             continue;
-        int parts = quarters(l, &q, part);
+        uint32_t parts = quarters(l, &q, part);
         if (q.level > 1)
             while (parts > 0)                  /* the nearest on top */
                 stack[n++] = part[--parts];
         else
-            for (int i = 0; i < parts; i++)
-                if (part[i].x < m->w - 1 && part[i].z < m->h - 1 && part[i].s0 <= l->limit)
+            for (uint32_t i = 0; i < parts; i++)
+                if (part[i].s0 <= l->limit)
                     cell_hits(l, part[i].x, part[i].z);
     }
 }
@@ -373,19 +399,22 @@ static bool inside(const void *shape, Vec3 p)
     return p.y < on_cell(&c, p.x - i, p.z - k);
 }
 
-/* The sum of the unit normals of the triangles between p and its neighbours in x and z. POV: kept in 16 bits, in map units. */
+/* The sum of the unit normals of the triangles between p and its neighbours in x and z, those within the map. POV: kept in
+ * 16 bits, in map units. */
 static Vec3 point_normal(const Params *m, uint32_t i, uint32_t k)
 {
-    static const int side[4][2] = { { 1, 1 }, { -1, 1 }, { -1, -1 }, { 1, -1 } };
-    Vec3 sum = vec3(0, 0, 0);
+    bool left = i > 0, right = i + 1 < m->w, front = k > 0, back = k + 1 < m->h;
     double y = at(m, i, k);
-    for (int s = 0; s < 4; s++) {
-        int64_t x = (int64_t)i + side[s][0], z = (int64_t)k + side[s][1];
-        if (x < 0 || z < 0 || x >= m->w || z >= m->h)
-            continue;
-        double dx = at(m, (uint32_t)x, k) - y, dz = at(m, i, (uint32_t)z) - y;
-        sum = add(sum, normalized(vec3(-side[s][0] * dx, 1, -side[s][1] * dz)));
-    }
+    double x0 = left ? y - at(m, i - 1, k) : 0, x1 = right ? at(m, i + 1, k) - y : 0;
+    double z0 = front ? y - at(m, i, k - 1) : 0, z1 = back ? at(m, i, k + 1) - y : 0;
+    const double dx[4] = { x1, x0, x0, x1 }, dz[4] = { z1, z1, z0, z0 };
+    const double there[4] = { right && back, left && back, left && front, right && front };
+    double f[4];
+    for (int s = 0; s < 4; s++)
+        f[s] = there[s] / sqrt(dx[s] * dx[s] + 1 + dz[s] * dz[s]);
+    Vec3 sum = vec3(0, 0, 0);
+    for (int s = 0; s < 4; s++)
+        sum = add(sum, vec3(-dx[s] * f[s], f[s], -dz[s] * f[s]));
     Vec3 n = scaled(normalized(sum), 32767);
     return vec3(trunc(n.x), trunc(n.y), trunc(n.z));
 }
