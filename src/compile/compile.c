@@ -131,7 +131,7 @@ static void end(Compile *c)
     World *w = c->w;
     if (!c->geometry_only)
         lights_end(c);
-    csg_cut_boxes(c);
+    csg_finish(c);
     TAKE(prim, n_prims, prim);
     w->box = c->box.data;
     TAKE(place, n_places, place);

@@ -112,7 +112,7 @@ Bounds item_hull(const Compile *c, uint32_t item);                 /* holds ever
 bool item_holds(const Compile *c, uint32_t item, Bounds box);      /* surely the whole box is inside */
 uint32_t csg_node(Compile *c, CsgOp op, uint32_t flags, const Items *children, uint32_t first_prim);
 void csg_reverse(Compile *c, uint32_t first_prim, uint32_t first_node);
-void csg_cut_boxes(Compile *c);
+void csg_finish(Compile *c);
 
 /* textures.c */
 uint32_t texture_placed(Compile *c, const Texture *t, const Affine *own, const Affine *around);

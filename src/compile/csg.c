@@ -104,39 +104,17 @@ static bool is_selective(CsgOp op, Reach r)
     return (op == CSG_ALL) == r.co;
 }
 
-/* Children that have to be asked one by one go first, the others into a tree of boxes. */
-static void list_children(Compile *c, uint32_t index, const Items *children)
-{
-    CsgNode *node = &c->csg.data[index];
-    bool tree = children->n > LISTED_MAX && !(node->flags & (CSG_CLIP | CSG_BOUND));
-    Items later = { 0 };
-    for (uint32_t i = 0; i < children->n; i++) {
-        uint32_t item = children->data[i];
-        set_parent(c, item, index);
-        if (tree && i > 0 && is_selective(node->op, item_reach(c, item)))
-            array_push(c->arena, &later, item);
-        else
-            array_push(c->arena, &c->csg_child, item);
-    }
-    node->n_listed = node->n - later.n;
-    if (later.n == 0)
-        return;
-    Bounds *box = arena_array(c->arena, Bounds, later.n);
-    for (uint32_t i = 0; i < later.n; i++) {
-        array_push(c->arena, &c->csg_child, later.data[i]);
-        box[i] = item_reach(c, later.data[i]).box;
-    }
-    node->accel = c->w->accel_ops->build(c->arena, box, later.n);
-}
-
 uint32_t csg_node(Compile *c, CsgOp op, uint32_t flags, const Items *children, uint32_t first_prim)
 {
     Reach r = reach_of(c, op, children);
     uint32_t index = c->csg.n;
-    array_push(c->arena, &c->csg, (CsgNode){ .first = c->csg_child.n, .n = children->n, .first_prim = first_prim,
-                                             .n_prims = c->prim.n - first_prim, .op = op,
+    array_push(c->arena, &c->csg, (CsgNode){ .first = c->csg_child.n, .n = children->n, .n_listed = children->n,
+                                             .first_prim = first_prim, .n_prims = c->prim.n - first_prim, .op = op,
                                              .flags = flags | (r.co ? CSG_INVERSE : 0), .box = r.box });
-    list_children(c, index, children);
+    for (uint32_t i = 0; i < children->n; i++) {
+        set_parent(c, children->data[i], index);
+        array_push(c->arena, &c->csg_child, children->data[i]);
+    }
     return ~index;
 }
 
@@ -200,9 +178,68 @@ static void cut_item(Compile *c, uint32_t item, Bounds limit, Bounds bound)
         cut_item(c, c->csg_child.data[node->first + i], limit, bound);
 }
 
-void csg_cut_boxes(Compile *c)
+/* ---- when all is known ---- */
+
+/* A difference of a difference takes away twice, which one node does as well: chains of them become one list. */
+static bool melts_into(const CsgNode *inner, const CsgNode *outer)
 {
+    const uint32_t whole = CSG_CLIP | CSG_BOUND | CSG_CUTAWAY;
+    return inner->op == outer->op && !((inner->flags ^ outer->flags) & CSG_MERGE) &&
+           !((inner->flags | outer->flags) & whole);
+}
+
+static void gather(const Compile *c, const CsgNode *node, const CsgNode *outer, Items *out)
+{
+    for (uint32_t i = 0; i < node->n; i++) {
+        uint32_t item = c->csg_child.data[node->first + i];
+        if (is_node(item) && melts_into(&c->csg.data[~item], outer))
+            gather(c, &c->csg.data[~item], outer, out);
+        else
+            array_push(c->arena, out, item);
+    }
+}
+
+/* Children that have to be asked one by one go first, the others into a tree of boxes. Nodes that melted away are above
+ * nothing any more. */
+static void finish_node(Compile *c, uint32_t index, Items *child)
+{
+    CsgNode *node = &c->csg.data[index];
+    Items all = { 0 }, later = { 0 };
+    gather(c, node, node, &all);
+    bool tree = all.n > LISTED_MAX && !(node->flags & (CSG_CLIP | CSG_BOUND));
+    node->first = child->n;
+    node->n = all.n;
+    for (uint32_t i = 0; i < all.n; i++) {
+        set_parent(c, all.data[i], index);
+        if (tree && i > 0 && is_selective(node->op, item_reach(c, all.data[i])))
+            array_push(c->arena, &later, all.data[i]);
+        else
+            array_push(c->arena, child, all.data[i]);
+    }
+    node->n_listed = all.n - later.n;
+    if (later.n > 0) {
+        Bounds *box = arena_array(c->arena, Bounds, later.n);
+        for (uint32_t i = 0; i < later.n; i++) {
+            array_push(c->arena, child, later.data[i]);
+            box[i] = item_reach(c, later.data[i]).box;
+        }
+        node->accel = c->w->accel_ops->build(c->arena, box, later.n);
+    }
+    for (uint32_t i = 0; i < all.n; i++)
+        if (is_node(all.data[i]))
+            finish_node(c, ~all.data[i], child);
+}
+
+void csg_finish(Compile *c)
+{
+    Items child = { 0 };
     for (uint32_t k = 1; k < c->csg.n; k++)
+        if (c->csg.data[k].parent == 0)
+            finish_node(c, k, &child);
+    c->csg_child.data = child.data;
+    c->csg_child.n = child.n;
+    c->csg_child.capacity = child.capacity;
+    for (uint32_t k = 1; k < c->csg.n; k++)    /* not before: the trees are over boxes as they are */
         if (c->csg.data[k].parent == 0)
             cut_item(c, ~k, bounds_everything(), bounds_everything());
 }

@@ -303,14 +303,17 @@ static uint32_t set_operation(Compile *c, const Object *o, const Inherited *from
         flags |= CSG_CUTAWAY;
     CsgOp op = operation(o, in.inversions, &flags);
     Items items = { 0 };
+    bool first = true;
     for (uint32_t i = 0; i < o->n_child; i++) {
         Inherited child = in;
         child.prim_flags |= heeded_flags(o->child[i], o);
-        if (o->kind == OBJECT_DIFFERENCE && items.n > 0)
+        if (o->kind == OBJECT_DIFFERENCE && !first)
             child.inversions++;
         uint32_t item = flatten_item(c, o->child[i], &child);
-        if (item != NO_ITEM)
+        if (item != NO_ITEM) {
             array_push(c->arena, &items, item);
+            first = false;
+        }
     }
     if (items.n == 0 && o->n_child > 0)
         return NO_ITEM;                        /* lights only */
