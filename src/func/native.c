@@ -71,16 +71,16 @@ static double ridged_mf(const double *a)
     Vec3 p = vec3(a[0], a[1], a[2]);
     double H = a[3], lacunarity = a[4], octaves = a[5], offset = a[6], gain = a[7];
     int generator = generator_of(a[8]);
-    double signal = offset - fabs(signed_noise(generator, p)), frequency = 1;
+    double signal = offset - fabs(signed_noise(generator, p)), f = pow(lacunarity, -H), e = 1;
     signal *= signal;
     double v = signal;
     for (int i = 1; i < octaves && i < MAX_TERMS; i++) {
         p = scaled(p, lacunarity);
-        frequency *= lacunarity;
+        e *= f;
         double weight = signal * gain, next = offset - fabs(signed_noise(generator, p));
         weight = weight < 0 ? 0 : weight > 1 ? 1 : weight;
         signal = weight * (next * next);
-        v += signal * pow(frequency, -H);
+        v += signal * e;
     }
     return v;
 }

@@ -20,7 +20,7 @@ static inline bool is_far(Vec3 p)
 
 static inline long long low_corner(double x)
 {
-    return (long long)(x >= 0 ? x : x - (1 - 1e-10));
+    return (long long)(x - (x < 0 ? 1 - 1e-10 : 0));
 }
 
 static inline Quad load(const double *from)
@@ -116,9 +116,11 @@ static inline double raw3(Vec3 p)
     return sum_of(layer[0] + (layer[1] - layer[0]) * sz);
 }
 
+/* Written so that it becomes two instructions without a branch. */
 static inline double clamp(double v)
 {
-    return v < 0 ? 0 : v > 1 ? 1 : v;
+    v = v > 0 ? v : 0;
+    return v < 1 ? v : 1;
 }
 
 static inline double value(int generator, Vec3 p)

@@ -135,7 +135,10 @@ static void sample(const Search *q, Samples *s, double a, double va, double b, d
     for (int step = s->n; step > 1; step /= 2)
         for (int i = step / 2; i < s->n; i += step)
             s->t[i] = (s->t[i - step / 2] + s->t[i + step / 2]) / 2;
-    values_at(q, s->t, s->v, s->n);            /* the first again: full rows are handled faster */
+    if (s->n == 2)
+        s->v[1] = q->sign * value_at(q, s->t[1]);
+    else
+        values_at(q, s->t, s->v, s->n);        /* the first again: full rows are handled faster */
 }
 
 typedef enum Found { NONE, ROOT, BEYOND } Found;               /* BEYOND: what could still come lies too far away to count */
@@ -179,7 +182,9 @@ static Found first_root(Search *q, double a, double b, double *root)
     const Isosurface *s = q->s;
     if (s->evaluates && q->gradient > s->evaluate[0])
         q->gradient *= s->evaluate[2];
-    Samples ends = { .n = 1, .t = { a, b } };
+    Samples ends;
+    ends.t[0] = a;
+    ends.t[1] = b;
     values_at(q, ends.t, ends.v, 2);
     return search(q, &ends, 0, 1, 0, root);
 }
