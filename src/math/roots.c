@@ -82,11 +82,13 @@ static int sign_changes(const double *b, int n)
     return changes;
 }
 
-/* The root between u0 and u1, sought from a guess, where falling says on which side of it the values are positive, to within `tolerance` or the
- * last bit of the root itself. */
-static double closed_in(const double *a, int n, double u0, double u1, bool falling, double guess, double tolerance)
+typedef struct Tolerance { double absolute, relative; } Tolerance;     /* of a root; the larger of the two */
+
+/* The root between u0 and u1, sought from a guess, where falling says on which side of it the values are positive. */
+static double closed_in(const double *a, int n, double u0, double u1, bool falling, double guess, Tolerance wanted)
 {
     double u = guess > u0 && guess < u1 ? guess : 0.5 * (u0 + u1), last = u1 - u0;
+    bool steady = false;                       /* was the last step one of Newton's? */
     for (int i = 0; i < 120; i++) {
         double f = a[n], slope = 0;
         for (int k = n - 1; k >= 0; k--) {
@@ -99,15 +101,15 @@ static double closed_in(const double *a, int n, double u0, double u1, bool falli
             u0 = u;
         else
             u1 = u;
-        double next = u - f / slope, before = last;
+        double next = u - f / slope, before = last, limit = wanted.absolute + wanted.relative * fabs(u);
         bool newton = next > u0 && next < u1 && fabs(next - u) <= 0.5 * last;
         if (!newton)
             next = 0.5 * (u0 + u1);            /* Newton leaves the bracket or dawdles: halve it */
         last = fabs(next - u);
-        /* Steps shrink as their squares: the coming one would be about last^3 / before^2. */
-        double coming = newton ? last * last * last : last * before * before;
-        if (coming <= before * before * (tolerance + DBL_EPSILON * fabs(u)))
+        /* Newton's steps shrink as their squares: the coming one would be about last^3 / before^2. */
+        if (last <= limit || (newton && steady && last * last * last <= before * before * limit))
             return next;
+        steady = newton;
         u = next;
     }
     return u;
@@ -128,7 +130,8 @@ static bool is_zero(const double *c, int n, double x, double *f)
 }
 
 typedef struct Small {                         /* a search for degrees up to four */
-    double lo, hi, from, tolerance;
+    double lo, hi, from;
+    Tolerance wanted;
     RootVisit *visit;
     void *user;
 } Small;
@@ -210,7 +213,7 @@ static bool climb_to(Climb *k, double x, bool turns)
         k->ended = !k->s->visit(k->s->user, x);
     else if (!zero && !k->zero && (k->f > 0) != (f > 0))
         k->ended = !k->s->visit(k->s->user, closed_in(k->c, k->n, k->x, x, k->f > 0, guess_between(k, x, f, turns),
-                                                      k->s->tolerance));
+                                                      k->s->wanted));
     k->x = x;
     k->f = f;
     k->zero = zero;
@@ -224,6 +227,8 @@ static bool turn(void *user, double x)
 }
 
 /* Turning points are wanted loosely: a mistake of theirs enters the values there as its square. */
+static const double LOOSE = 4e6;
+
 static bool small(const double *c, int n, const Small *s)
 {
     while (n > 0 && c[n] == 0)
@@ -236,9 +241,7 @@ static bool small(const double *c, int n, const Small *s)
     for (int k = 1; k <= n; k++)
         slope[k - 1] = k * c[k];
     Climb climb = { .c = c, .n = n, .s = s, .x = s->lo };
-    Small loose = { s->lo, s->hi, s->lo, 1e-9 * (s->hi - s->lo), turn, &climb };
-    if (loose.tolerance < s->tolerance)
-        loose.tolerance = s->tolerance;
+    Small loose = { s->lo, s->hi, s->lo, { LOOSE * s->wanted.absolute, LOOSE * s->wanted.relative }, turn, &climb };
     small(slope, n - 1, &loose);
     if (!climb.ended)
         climb_to(&climb, s->hi, false);
@@ -248,6 +251,11 @@ static bool small(const double *c, int n, const Small *s)
 static double larger(double a, double b)
 {
     return a > b ? a : b;
+}
+
+static Tolerance precise(double lo, double hi)
+{
+    return (Tolerance){ DBL_EPSILON * larger(fabs(lo), fabs(hi)), DBL_EPSILON };
 }
 
 /* ---- higher degrees ---- */
@@ -282,7 +290,8 @@ static void isolate(Search *s, const double *b, double u0, double size, int dept
         int first = 0;
         while (b[first] == 0)
             first++;
-        report(s, closed_in(s->a, s->n, u0, u0 + size, b[first] > 0, u0 + 0.5 * size, 0.5 * DBL_EPSILON));
+        report(s, closed_in(s->a, s->n, u0, u0 + size, b[first] > 0, u0 + 0.5 * size,
+                            (Tolerance){ 0.5 * DBL_EPSILON, DBL_EPSILON }));
     } else if (changes > 1) {
         if (depth == DEPTH || --s->budget < 0)
             report(s, u0 + 0.5 * size);
@@ -327,7 +336,7 @@ int roots_between(const double *c, int n, double lo, double hi, double *root)
         return 0;
     if (n <= 4) {
         double *next = root;
-        small(c, n, &(Small){ lo, hi, lo, DBL_EPSILON * larger(fabs(lo), fabs(hi)), collect, &next });
+        small(c, n, &(Small){ lo, hi, lo, precise(lo, hi), collect, &next });
         return (int)(next - root);
     }
     Search s = { .n = n, .lo = lo, .width = hi - lo, .root = root };
@@ -364,7 +373,7 @@ void roots_visit(const double *c, int n, double lo, double hi, double from, Root
 {
     if (n <= 4) {
         if (lo <= hi)
-            small(c, n, &(Small){ lo, hi, from, DBL_EPSILON * larger(fabs(lo), fabs(hi)), visit, user });
+            small(c, n, &(Small){ lo, hi, from, precise(lo, hi), visit, user });
         return;
     }
     double root[MAX];
@@ -435,7 +444,7 @@ void roots_visit_all(const double *c, int n, double from, RootVisit *visit, void
     if (n >= 1 && n <= 4) {
         int e = reach_exponent(c, n);
         double reach = ldexp(1, e < 1000 ? e + 3 : 1003);
-        small(c, n, &(Small){ -reach, reach, from, 0, visit, user });
+        small(c, n, &(Small){ -reach, reach, from, { 0, DBL_EPSILON }, visit, user });
         return;
     }
     double root[MAX];

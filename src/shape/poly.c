@@ -13,8 +13,7 @@ typedef struct { int order; double *coefficient; } Params;
 
 typedef struct {
     int order;
-    double size[MAX_ORDER + 1];                /* sum of the sizes of the coefficients of each degree */
-    const double *coefficient;
+    const double *coefficient, *size;          /* size: without signs, to know what cancels */
     const signed char *top;                    /* for each power of x and y the highest of z with a coefficient; -1: none */
 } Poly;
 
@@ -93,19 +92,15 @@ static void parse_polynomial(Parser *p, void *params)
 
 /* ---- compiling ---- */
 
-/* Calls for each coefficient in its order would hide the arithmetic: loops over i, j, k with a running index do not. */
-static void degree_sizes(const Params *p, double *largest, double *sum)
+static void largest_by_degree(const Params *p, double *largest)
 {
     int at = 0;
     for (int k = 0; k <= MAX_ORDER; k++)
-        largest[k] = sum[k] = 0;
+        largest[k] = 0;
     for (int i = p->order; i >= 0; i--)
         for (int j = p->order - i; j >= 0; j--)
-            for (int k = p->order - i - j; k >= 0; k--) {
-                double c = fabs(p->coefficient[at++]);
-                largest[i + j + k] = fmax(largest[i + j + k], c);
-                sum[i + j + k] += c;
-            }
+            for (int k = p->order - i - j; k >= 0; k--, at++)
+                largest[i + j + k] = fmax(largest[i + j + k], fabs(p->coefficient[at]));
 }
 
 static const signed char *tops(ShapeBuild *b, const double *c, int order)
@@ -128,8 +123,8 @@ static const signed char *tops(ShapeBuild *b, const double *c, int order)
 static void compile(ShapeBuild *b, const void *params)
 {
     const Params *p = params;
-    double largest[MAX_ORDER + 1], sum[MAX_ORDER + 1];
-    degree_sizes(p, largest, sum);
+    double largest[MAX_ORDER + 1];
+    largest_by_degree(p, largest);
     double unit = shape_algebraic_unit(largest, p->order), most = 0;
     if (p->order <= 4)
         unit = shape_unit(b, unit);            /* higher powers of a unit that does not fit might overflow */
@@ -140,14 +135,14 @@ static void compile(ShapeBuild *b, const void *params)
         return;
     int top = ilogb(most), at = 0;
     Poly *out = build_data(b, sizeof *out);
-    double *c = build_data(b, (size_t)n_terms(p->order) * sizeof *c);
+    double *c = build_data(b, (size_t)n_terms(p->order) * sizeof *c), *size = build_data(b, (size_t)n_terms(p->order) * sizeof *c);
     for (int i = p->order; i >= 0; i--)
         for (int j = p->order - i; j >= 0; j--)
-            for (int k = p->order - i - j; k >= 0; k--, at++)
+            for (int k = p->order - i - j; k >= 0; k--, at++) {
                 c[at] = ldexp(p->coefficient[at], e * (i + j + k) - top);
-    *out = (Poly){ .order = p->order, .coefficient = c, .top = tops(b, c, p->order) };
-    for (int k = 0; k <= p->order; k++)
-        out->size[k] = ldexp(sum[k], e * k - top);
+                size[at] = fabs(c[at]);
+            }
+    *out = (Poly){ .order = p->order, .coefficient = c, .size = size, .top = tops(b, c, p->order) };
     Affine place = build_place(b, unit);
     build_prim(b, out, &place, bounds_everything());
 }
@@ -189,9 +184,8 @@ static inline int along_z(const double *c, int top, double o, double d, double *
 }
 
 /* The polynomial in s at o + s d; returns its degree. */
-static int along(const Poly *poly, Vec3 o, Vec3 d, double *px)
+static int along(const Poly *poly, const double *c, Vec3 o, Vec3 d, double *px)
 {
-    const double *c = poly->coefficient;
     const signed char *top = poly->top;
     double py[MAX_ORDER + 1], pz[MAX_ORDER + 1];
     int n = poly->order, nx = -1;
@@ -208,16 +202,17 @@ static int along(const Poly *poly, Vec3 o, Vec3 d, double *px)
     return nx;
 }
 
-/* How large the coefficient of s^k could be if nothing cancelled: binomial expansion of each degree. */
-static double reach(const Poly *poly, double distance, int k)
+/* Drops leading coefficients of which nothing is left but rounding: they would be roots at the end of the world. What is
+ * small without having cancelled stays. */
+static int without_noise(const Poly *poly, Vec3 o, Vec3 d, const double *c, int n)
 {
-    double sum = 0, choose = 1, power = 1;     /* m over k, distance^(m - k) */
-    for (int m = k; m <= poly->order; m++) {
-        sum += poly->size[m] * choose * power;
-        choose = choose * (m + 1) / (m + 1 - k);
-        power *= distance;
-    }
-    return sum;
+    if (n < 2 || fabs(c[n]) > 1e-12 * fabs(c[n - 1]))
+        return n;
+    double most[MAX_ORDER + 1];
+    along(poly, poly->size, vec3(fabs(o.x), fabs(o.y), fabs(o.z)), vec3(fabs(d.x), fabs(d.y), fabs(d.z)), most);
+    while (n > 0 && fabs(c[n]) <= 16 * DBL_EPSILON * most[n])
+        n--;
+    return n;
 }
 
 typedef struct { double shift, len; HitSink *sink; } Walk;
@@ -235,10 +230,7 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     const Poly *poly = shape;
     double len = length(ray->d), shift = shape_nearest_t(ray), c[MAX_ORDER + 1];
     Vec3 o = ray_at(ray, shift), d = scaled(ray->d, 1 / len);
-    int n = along(poly, o, d, c);
-    /* What is left of a leading coefficient that cancelled would be a root at the end of the world. */
-    while (n > 0 && fabs(c[n]) <= 1e-13 * reach(poly, length(o), n))
-        n--;
+    int n = without_noise(poly, o, d, c, along(poly, poly->coefficient, o, d, c));
     Walk w = { shift, len, sink };
     double from = (ray->t_min - shift) * len;
     roots_visit_all(c, n, from - 1e-6 * (1 + fabs(from)), visit, &w);

@@ -172,6 +172,17 @@ static void small_roots_of_a_quadratic_keep_their_digits(void **state)
     assert_true(fabs(root[1] - 1e8) < 1e-6);
 }
 
+static void leading_terms_that_almost_vanish_do_no_harm(void **state)
+{
+    (void)state;
+    for (int k = 14; k < 300; k += 7) {
+        const double c[5] = { -0.119465, 1e-15, 1, ldexp(0.3, -k), ldexp(1, -2 * k) };
+        double root[4];
+        assert_int_equal(roots_all(c, 4, root), 2);
+        assert_true(fabs(root[0] + sqrt(0.119465)) < 1e-4 && fabs(root[1] - sqrt(0.119465)) < 1e-4);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -180,6 +191,7 @@ int main(void)
         cmocka_unit_test(wilkinsons_polynomial_of_degree_ten),
         cmocka_unit_test(a_chebyshev_polynomial_of_degree_35_has_all_its_roots),
         cmocka_unit_test(touches_count_once),
+        cmocka_unit_test(leading_terms_that_almost_vanish_do_no_harm),
         cmocka_unit_test(nothing_comes_of_nothing),
         cmocka_unit_test(small_roots_of_a_quadratic_keep_their_digits),
     };

@@ -252,6 +252,27 @@ static void powers_of_two_as_written_change_no_bits(void **state)
     }
 }
 
+/* A Lemniscate of Gerono lies between x = -1 and 1: rays that are nearly square to x, for which the equation loses its
+ * leading terms, have no business elsewhere (POV-Ray draws lines across the picture). */
+static void polynomials_are_not_hit_at_the_end_of_the_world(void **state)
+{
+    (void)state;
+    SceneText s = { 0 };
+    assert_true(scene_text(&s, "polynomial { 4, xyz(4,0,0): 1, xyz(2,0,0): -1, xyz(0,2,0): 1, xyz(0,0,2): 1 rotate <30,0,65> }"));
+    Affine turn = affine_rotate(vec3(30, 0, 65));
+    seed = 1;
+    for (int i = 0; i < 20000; i++) {
+        Vec3 o = vec3(uniform(-3, 3), uniform(-3, 3), uniform(-3, 3));
+        Vec3 d = vec3(pow(10, uniform(-20, -1)) * (i & 1 ? 1 : -1), uniform(-1, 1), uniform(-1, 1)), p, n;
+        if (!scene_text_trace(&s, affine_point(&turn, o), affine_vector(&turn, d), &p, &n))
+            continue;
+        if (length(p) > 1.0001)
+            print_message("ray %d: hit at <%g, %g, %g>\n", i, p.x, p.y, p.z);
+        assert_true(length(p) <= 1.0001);
+    }
+    scene_text_end(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -260,6 +281,7 @@ int main(void)
         cmocka_unit_test(inside_flips_across_the_surface),
         cmocka_unit_test(powers_of_two_change_no_bits),
         cmocka_unit_test(powers_of_two_as_written_change_no_bits),
+        cmocka_unit_test(polynomials_are_not_hit_at_the_end_of_the_world),
     };
     return cmocka_run_group_tests(tests, read_samples, NULL);
 }
