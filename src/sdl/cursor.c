@@ -46,7 +46,7 @@ static Conditional *push_conditional(Parser *p, ConditionalKind kind, Loc loc)
     if (p->n_conditionals == MAX_CONDITIONALS)
         fail(p->diag, loc, "Too many nested conditionals or macros.");
     Conditional *c = &p->conditional[p->n_conditionals++];
-    *c = (Conditional){ .kind = kind, .reader = p->n_readers - 1, .loc = loc };
+    *c = (Conditional){ .kind = kind, .reader = p->n_readers - 1, .loc = loc, .busy = kind != COND_MACRO };
     return c;
 }
 
@@ -72,6 +72,19 @@ static bool end_reader(Parser *p)
         symbol_pop_table(p);
     p->n_readers--;
     return true;
+}
+
+/* The parentheses of the conditional on top have been read. They must end in the same text or array as they began: what
+ * follows goes on with an index into it. */
+static Conditional *settled(Parser *p)
+{
+    Conditional *c = &p->conditional[p->n_conditionals - 1];
+    for (Reader *r = top(p); p->n_readers - 1 > c->reader && r->macro && r->at == r->n; r = top(p))
+        end_reader(p);
+    if (p->n_readers - 1 != c->reader)
+        fail(p->diag, c->loc, "the parentheses of a directive must end in the file or macro where they began");
+    c->busy = false;
+    return c;
 }
 
 void cursor_raw(Parser *p, Token *out)
@@ -402,17 +415,19 @@ static void skip_branch(Parser *p, uint32_t at_index, Token *out)
     r->at = next + 1;
 }
 
+static _Noreturn void mismatched(Parser *p, const Token *t)
+{
+    if (t->directive == KW_CASE || t->directive == KW_RANGE)
+        fail(p->diag, t->loc, "Mis-matched '#case' or '#range'.");
+    fail(p->diag, t->loc, "Mis-matched '#%s'.", token_keyword_text(t->directive));
+}
+
 /* -- #if, #ifdef, #ifndef, #switch -- */
 
 uint32_t cursor_here(Parser *p)
 {
     Reader *r = top(p);
     return r->is_file ? 0 : r->at - 1;
-}
-
-static void take_open(Parser *p)
-{
-    parse_expect(p, TOK_LPAREN);
 }
 
 static bool condition(Parser *p)
@@ -428,7 +443,9 @@ static bool condition(Parser *p)
 /* (X) or (A[i]): the word is not evaluated, and no macro of that name is called. */
 bool cursor_is_defined(Parser *p)
 {
-    take_open(p);
+    bool was = p->suspended;
+    p->suspended = true;
+    parse_expect(p, TOK_LPAREN);
     Token t;
     cursor_raw(p, &t);
     bool defined = false;
@@ -442,8 +459,6 @@ bool cursor_is_defined(Parser *p)
         p->have = true;
         parse_expected(p, "identifier");
     }
-    bool was = p->suspended;
-    p->suspended = true;
     parse_expect(p, TOK_RPAREN);
     p->suspended = was;
     return defined;
@@ -454,6 +469,15 @@ static bool test_of(Parser *p, int directive)
     if (directive == KW_IFDEF || directive == KW_IFNDEF)
         return cursor_is_defined(p) == (directive == KW_IFDEF);
     return condition(p);
+}
+
+/* The test of an #if, #elseif or #while. */
+static bool test(Parser *p, int directive)
+{
+    p->conditional[p->n_conditionals - 1].busy = true;
+    bool holds = test_of(p, directive);
+    settled(p);
+    return holds;
 }
 
 /* `at` is the place of the directive whose test has failed; goes on to the branch that runs, or behind the #end. */
@@ -470,9 +494,9 @@ static void choose_branch(Parser *p, uint32_t at)
         }
         at = cursor_here(p);
         if (c->was_else || t.directive == KW_CASE || t.directive == KW_RANGE)
-            fail(p->diag, t.loc, "Mis-matched '#%.*s'.", STR_ARGS(t.sym->text));
+            mismatched(p, &t);
         c->was_else = t.directive == KW_ELSE;
-        if (t.directive == KW_ELSE || condition(p))
+        if (t.directive == KW_ELSE || test(p, KW_IF))
             return;
     }
 }
@@ -481,7 +505,7 @@ static void run_if(Parser *p, const Token *t)
 {
     uint32_t at = cursor_here(p);
     push_conditional(p, COND_IF, t->loc);
-    if (!test_of(p, t->directive))
+    if (!test(p, t->directive))
         choose_branch(p, at);
 }
 
@@ -500,8 +524,9 @@ static void skip_to_end(Parser *p, uint32_t at)
 static bool case_fits(Parser *p, int directive, double value)
 {
     bool was = p->suspended;
-    parse_expect(p, TOK_LPAREN);
+    p->conditional[p->n_conditionals - 1].busy = true;
     p->suspended = true;
+    parse_expect(p, TOK_LPAREN);
     double low = expr_full_float(p), high = low;
     if (directive == KW_RANGE) {
         parse_comma(p);
@@ -509,6 +534,7 @@ static bool case_fits(Parser *p, int directive, double value)
     }
     parse_expect(p, TOK_RPAREN);
     p->suspended = was;
+    settled(p);
     return directive == KW_RANGE ? low <= value && value <= high : fabs(value - low) <= EPSILON;
 }
 
@@ -520,14 +546,10 @@ static void choose_case(Parser *p, Token t, uint32_t at)
             p->n_conditionals--;
             return;
         }
-        Conditional *c = &p->conditional[p->n_conditionals - 1];
-        double value = c->end;
         if (t.directive == KW_ELSEIF)
-            fail(p->diag, t.loc, "Mis-matched '#elseif'.");
-        if (t.directive == KW_ELSE || case_fits(p, t.directive, value)) {
-            p->conditional[p->n_conditionals - 1].done = true;
+            mismatched(p, &t);
+        if (t.directive == KW_ELSE || case_fits(p, t.directive, p->conditional[p->n_conditionals - 1].end))
             return;
-        }
         skip_branch(p, at, &t);
         at = cursor_here(p);
     }
@@ -539,7 +561,7 @@ static void run_switch(Parser *p, const Token *t)
     Num value;
     push_conditional(p, COND_SWITCH, t->loc);
     expr_condition(p, &value);
-    p->conditional[p->n_conditionals - 1].end = num_float(p, &value);
+    settled(p)->end = num_float(p, &value);
     for (;;) {
         Token next;
         if (p->have) {
@@ -551,6 +573,7 @@ static void run_switch(Parser *p, const Token *t)
         if (next.kind != TOK_HASH)
             fail(p->diag, next.loc, "#switch not followed by #case or #range.");
         if (next.directive == KW_CASE || next.directive == KW_RANGE) {
+            settled(p);
             choose_case(p, next, cursor_here(p));
             return;
         }
@@ -563,7 +586,7 @@ static void run_switch(Parser *p, const Token *t)
 /* Does the conditional on top belong to what is being read? An #if may begin in a file and end in one it includes. */
 static Conditional *innermost(Parser *p)
 {
-    if (!p->n_conditionals)
+    if (!p->n_conditionals || p->conditional[p->n_conditionals - 1].busy)
         return NULL;
     Conditional *c = &p->conditional[p->n_conditionals - 1];
     for (uint32_t i = c->reader; c->kind == COND_IF && i < p->n_readers; i++)
@@ -578,14 +601,14 @@ static void run_branch(Parser *p, const Token *t)
     uint32_t at = cursor_here(p);
     Conditional *c = innermost(p);
     if (!c || (c->kind != COND_IF && c->kind != COND_SWITCH))
-        fail(p->diag, t->loc, "Mis-matched '#%.*s'.", STR_ARGS(t->sym->text));
+        mismatched(p, t);
     if (c->kind == COND_SWITCH) {              /* no #break: falls through */
         if (t->directive == KW_CASE || t->directive == KW_RANGE)
             case_fits(p, t->directive, c->end);
         return;
     }
     if (t->directive == KW_CASE || t->directive == KW_RANGE || c->was_else)
-        fail(p->diag, t->loc, "Mis-matched '#%.*s'.", STR_ARGS(t->sym->text));
+        mismatched(p, t);
     skip_to_end(p, at);
 }
 
@@ -619,7 +642,7 @@ static void while_turn(Parser *p, uint32_t start)
 {
     cursor_stop_check(p);
     top(p)->at = start + 1;
-    if (!condition(p))
+    if (!test(p, KW_WHILE))
         end_loop(p, start);
 }
 
@@ -644,14 +667,14 @@ static void run_for(Parser *p, const Token *t)
 {
     uint32_t start = loop_start(p, t);
     push_conditional(p, COND_FOR, t->loc)->start = start;
+    bool was = p->suspended;
+    p->suspended = true;
     parse_expect(p, TOK_LPAREN);
     Token name;
     cursor_raw(p, &name);
     if (name.kind != TOK_NAME)
         fail(p->diag, name.loc, "expected the name of a variable after '#for ('");
-    bool was = p->suspended;
     parse_comma(p);
-    p->suspended = true;
     double from = expr_full_float(p);
     parse_comma(p);
     double end = expr_full_float(p), step = 1;
@@ -665,7 +688,7 @@ static void run_for(Parser *p, const Token *t)
     if (v->kind == VALUE_MACRO || v->kind == VALUE_FUNCTION)
         fail(p->diag, name.loc, "the variable of #for is already a %s", value_type_name(v));
     value_set_number(p, v, &(Num){ { from }, 1 });
-    Conditional *c = &p->conditional[p->n_conditionals - 1];
+    Conditional *c = settled(p);
     c->variable = name.sym;
     c->end = end;
     c->step = step;
@@ -677,7 +700,7 @@ static void run_end(Parser *p, const Token *t)
 {
     Conditional *c = innermost(p);
     if (!c || c->kind == COND_MACRO)
-        fail(p->diag, t->loc, "Mis-matched '#end'.");
+        mismatched(p, t);
     if (c->kind == COND_WHILE) {
         while_turn(p, c->start);
     } else if (c->kind == COND_FOR) {
@@ -695,9 +718,9 @@ static void run_end(Parser *p, const Token *t)
 static void run_break(Parser *p, const Token *t)
 {
     uint32_t i = p->n_conditionals;
-    while (i > 0 && p->conditional[i - 1].kind == COND_IF)
+    while (i > 0 && p->conditional[i - 1].kind == COND_IF && !p->conditional[i - 1].busy)
         i--;
-    if (i == 0)
+    if (i == 0 || p->conditional[i - 1].busy)
         fail(p->diag, t->loc, "Invalid context for #break");
     Conditional *c = &p->conditional[i - 1];
     uint32_t nested = 0;                       /* conditionals to be left that are in the same reader */

@@ -109,6 +109,7 @@ static _Noreturn void not_a_new_name(Parser *p, const Token *t, Value *v)
     p->token = *t;
     p->value = v;
     p->have = true;
+    p->suspended = true;                       /* '#' is told, not obeyed */
     parse_expected(p, "undeclared identifier");
 }
 
@@ -159,6 +160,8 @@ static void declare(Parser *p, bool local)
     } else {
         if (old && old->kind == VALUE_FUNCTION && (!local || name.sym->binding->table == table))
             fail(p->diag, name.loc, "Redeclaring functions is not allowed - #undef the function first!");
+        if (table >= p->n_tables)              /* the value came from behind the macro that began the statement */
+            table = p->n_tables - 1;
         Binding *b = symbol_declare(p, name.sym, local, table);
         Value *target = b->value;
         if (target->kind == VALUE_NUMBER && value.kind == VALUE_NUMBER)

@@ -463,8 +463,8 @@ double expr_full_float(Parser *p)
 void expr_condition(Parser *p, Num *out)
 {
     bool was = p->suspended;
-    parse_expect(p, TOK_LPAREN);
     p->suspended = true;
+    parse_expect(p, TOK_LPAREN);
     expr_full(p, out);
     parse_expect(p, TOK_RPAREN);
     p->suspended = was;

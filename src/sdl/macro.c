@@ -1,6 +1,15 @@
 /* macro.c - macros: bodies of tokens that are read in the place of the call (01-language, section 14). */
 #include "sdl/parser.h"
 
+static _Noreturn void not_expected(Parser *p, const Token *t, Value *value, const char *what)
+{
+    p->token = *t;
+    p->value = value;
+    p->have = true;
+    p->suspended = true;                       /* '#' is told, not obeyed */
+    parse_expected(p, what);
+}
+
 /* #macro NAME ( p1, p2 ... ) body #end; what `directive` says is the #macro itself, just read. */
 void macro_define(Parser *p, const Token *directive)
 {
@@ -10,27 +19,18 @@ void macro_define(Parser *p, const Token *directive)
         fail(p->diag, directive->loc, "Macros require a language version of at least 3.1.");
     cursor_raw(p, &name);
     Value *old = name.kind == TOK_NAME ? symbol_value(name.sym) : NULL;
-    if (name.kind != TOK_NAME || (old && old->kind != VALUE_MACRO && old->kind != VALUE_NONE)) {
-        p->token = name;
-        p->value = old;
-        p->have = true;
-        parse_expected(p, "undeclared identifier");
-    }
+    if (name.kind != TOK_NAME || (old && old->kind != VALUE_MACRO && old->kind != VALUE_NONE))
+        not_expected(p, &name, old, "undeclared identifier");
     Macro *m = arena_new(p->arena, Macro);
     Sym *parameter[MAX_PARAMETERS];
-    bool was = p->suspended;
-    p->suspended = true;
-    parse_expect(p, TOK_LPAREN);
-    p->suspended = was;
+    cursor_raw(p, &t);
+    if (t.kind != TOK_LPAREN)
+        not_expected(p, &t, NULL, "identifier or expression.");
     for (cursor_raw(p, &t); t.kind != TOK_RPAREN; cursor_raw(p, &t)) {
         if (t.kind == TOK_COMMA)
             continue;
-        if (t.kind != TOK_NAME) {
-            p->token = t;
-            p->value = NULL;
-            p->have = true;
-            parse_expected(p, "identifier or expression.");
-        }
+        if (t.kind != TOK_NAME)
+            not_expected(p, &t, NULL, "identifier or expression.");
         if (m->n_parameters == MAX_PARAMETERS)
             fail(p->diag, t.loc, "Too many parameters: a macro can have at most %d.", MAX_PARAMETERS);
         parameter[m->n_parameters++] = t.sym;

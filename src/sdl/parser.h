@@ -46,7 +46,7 @@ typedef enum ConditionalKind { COND_IF, COND_WHILE, COND_FOR, COND_SWITCH, COND_
 typedef struct Conditional {
     ConditionalKind kind;
     uint32_t reader;                           /* index of the reader it is in */
-    bool done;                                 /* IF: a branch has run; SWITCH: a case has matched */
+    bool busy;                                 /* its parentheses are being read: no directive may end or leave it */
     bool was_else;
     uint32_t start;                            /* WHILE, FOR: index of the directive in the reader's array */
     uint32_t body;                             /* FOR: first token of the body */

@@ -67,7 +67,7 @@ const char *token_keyword_text(int kind)
         [TOK_NOT - N_KEYWORDS] = "!", [TOK_AND - N_KEYWORDS] = "&", [TOK_OR - N_KEYWORDS] = "|",
         [TOK_PLUS - N_KEYWORDS] = "+", [TOK_MINUS - N_KEYWORDS] = "-", [TOK_STAR - N_KEYWORDS] = "*",
         [TOK_SLASH - N_KEYWORDS] = "/", [TOK_COMMA - N_KEYWORDS] = ", ", [TOK_SEMICOLON - N_KEYWORDS] = ";",
-        [TOK_COLON - N_KEYWORDS] = ":", [TOK_QUESTION - N_KEYWORDS] = "?", [TOK_DOT - N_KEYWORDS] = ".",
+        [TOK_COLON - N_KEYWORDS] = ":", [TOK_QUESTION - N_KEYWORDS] = "?", [TOK_DOT - N_KEYWORDS] = ". (period)",
         [TOK_HASH - N_KEYWORDS] = "#",
     };
     static const struct { const char *text; int keyword; } word[] = {

@@ -67,6 +67,21 @@ static const Row macros[] = {
     { "#for (I,1,2) #macro M() I #end #debug concat(str(M(),0,0),\" \") #end #debug \"\n\"", "1 2 \n" },
 };
 
+/* Odd, but what the tokens say. */
+static const Row odd[] = {
+    { "#macro M() #declare X = #end #macro N() M() 5; #end N() #debug concat(str(X,0,0),\"\n\")", "5\n" },
+    { "#declare A=array[2]{1,2} #declare A[0] = (#declare A=5; 7); #debug \"ok\n\"", "ok\n" },
+    { "#macro M(P) #undef Q #declare P=5; #debug concat(str(P,0,0),\"\n\") #end #declare Q=1; M(Q)", "5\n" },
+    { "#macro M(P) #declare C=array[1]{9} #declare P=5; #debug concat(str(P,0,0),\"\n\") #end #declare C=array[2]{1,2} M(C[1])", "5\n" },
+    { "#declare A=array[1] #declare A[0]=A; #declare A[0]=A; #declare A=A[0]; #debug \"ok\n\"", "ok\n" },
+    { "#macro M(P) #declare P=array[2]{P,P} #debug \"ok\n\" #end #declare A=1; M(A)", "ok\n" },
+    { "#macro M() #macro M() #debug \"new\n\" #end #debug \"old\n\" #end M() M()", "old\nnew\n" },
+    { "#macro M(A,A) #debug concat(str(A,0,0),\"\n\") #end M(1,2) #ifdef (A) #debug \"A\n\" #end", "2\n" },
+    { "#declare B = #while (0) #end 5; #debug concat(str(B,0,0),\"\n\")", "5\n" },
+    { "#declare C = (#for (I,0,2) #declare J=I; #end J); #debug concat(str(C,0,0),\"\n\")", "2\n" },
+    { "#declare C = vlength(<#if (1) 3 #else 4 #end, 4, 0>); #debug concat(str(C,0,0),\"\n\")", "5\n" },
+};
+
 static const Row values[] = {
     { "#declare A=1; #undef A #ifdef (A) #debug \"still\n\" #else #debug \"gone\n\" #end", "gone\n" },
     { "#declare A=1; #declare A=\"str\"; #debug A #declare A=<1,2>; #debug concat(str(A.v,0,0),\"\n\")", "str2\n" },
@@ -123,6 +138,12 @@ static void macros_replace_tokens_and_pass_identifiers_by_reference(void **state
     assert_int_equal(check(macros, sizeof macros / sizeof *macros), 0);
 }
 
+static void odd_but_legal_orders_are_kept(void **state)
+{
+    (void)state;
+    assert_int_equal(check(odd, sizeof odd / sizeof *odd), 0);
+}
+
 static void values_are_declared_copied_and_removed(void **state)
 {
     (void)state;
@@ -174,6 +195,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(conditionals_and_loops_run_as_in_povray),
         cmocka_unit_test(macros_replace_tokens_and_pass_identifiers_by_reference),
+        cmocka_unit_test(odd_but_legal_orders_are_kept),
         cmocka_unit_test(values_are_declared_copied_and_removed),
         cmocka_unit_test(replayed_tokens_do_what_the_text_does),
         cmocka_unit_test(numbers_declared_in_a_loop_take_no_memory),
