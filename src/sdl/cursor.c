@@ -78,10 +78,10 @@ static bool end_reader(Parser *p)
  * follows goes on with an index into it. */
 static Conditional *settled(Parser *p)
 {
-    Conditional *c = &p->conditional[p->n_conditionals - 1];
-    for (Reader *r = top(p); p->n_readers - 1 > c->reader && r->macro && r->at == r->n; r = top(p))
+    for (Reader *r = top(p); r->macro && r->at == r->n; r = top(p))
         end_reader(p);
-    if (p->n_readers - 1 != c->reader)
+    Conditional *c = &p->conditional[p->n_conditionals - 1];
+    if (c->kind == COND_MACRO || p->n_readers - 1 != c->reader)
         fail(p->diag, c->loc, "the parentheses of a directive must end in the file or macro where they began");
     c->busy = false;
     return c;
