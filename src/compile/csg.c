@@ -3,6 +3,7 @@
  * A leaf of an intersection can only be hit where the intersection can be, so the accelerator gets each leaf's box cut by
  * those of its ancestors: an endless plane in an intersection becomes a face. */
 #include "compile/context.h"
+#include "compile/polytope.h"
 
 enum { LISTED_MAX = 8 };                       /* from so many children on, a tree answers "who is around this point?" */
 
@@ -66,6 +67,35 @@ static Bounds cut_by_child(const Compile *c, uint32_t item, Bounds box)
     return bounds_intersection(box, bounds_transformed(local, place));
 }
 
+/* What the planes among the children leave of an endless box, together with its sides. */
+static Bounds cut_by_planes(const Compile *c, const Items *children, Bounds box)
+{
+    HalfSpace h[POLYTOPE_MAX + 1];
+    uint32_t n = 0;
+    for (int side = 0; side < 6; side++) {
+        double at = vec3_at(side < 3 ? box.lo : box.hi, side % 3), sign = side < 3 ? -1 : 1;
+        if (isfinite(at)) {
+            h[n].normal = vec3(0, 0, 0);
+            vec3_set(&h[n].normal, side % 3, sign);
+            h[n++].distance = sign * at;
+        }
+    }
+    for (uint32_t i = 0; i < children->n && n <= POLYTOPE_MAX; i++) {
+        uint32_t item = children->data[i];
+        Vec3 normal;
+        double distance;
+        if (is_node(item) || c->prim.data[item].ops->half_space == NULL)
+            continue;
+        const Prim *prim = &c->prim.data[item];
+        const Affine *place = &c->place.data[prim->place];
+        prim->ops->half_space(prim->data, &normal, &distance);
+        Vec3 on = affine_point(place, scaled(normal, distance)), across = normalized(affine_normal(place, normal));
+        double sign = prim->flags & PRIM_INVERSE ? -1 : 1;
+        h[n++] = (HalfSpace){ scaled(across, sign), sign * dot(across, on) };
+    }
+    return bounds_intersection(box, polytope_box(h, n));
+}
+
 /* Of all children together. An ALL is outside wherever one child is; if every child is a complement, it is one itself. */
 static Reach reach_of(const Compile *c, CsgOp op, const Items *children)
 {
@@ -85,6 +115,8 @@ static Reach reach_of(const Compile *c, CsgOp op, const Items *children)
     if (op == CSG_ALL)
         for (uint32_t i = 0; i < children->n; i++)
             within = cut_by_child(c, children->data[i], within);
+    if (op == CSG_ALL && !bounds_is_finite(within) && !bounds_is_empty(within) && n_co < children->n)
+        within = cut_by_planes(c, children, within);
     if (op == CSG_ALL)
         return n_co > 0 && n_co == children->n ? (Reach){ co_around, true } : (Reach){ within, false };
     return n_co > 0 ? (Reach){ co_within, true } : (Reach){ around, false };

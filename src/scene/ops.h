@@ -45,6 +45,8 @@ struct ShapeOps {
     /* Optional: bounds the shape's solid within a box, all in the shape's space, where it has no finite box of its own: a cone
      * between two planes. */
     Bounds (*within)(const void *shape, Bounds box);
+    /* Optional: the shape is the half space normal . p <= distance, the normal of unit length: several may have a box. */
+    void (*half_space)(const void *shape, Vec3 *normal, double *distance);
     bool (*inside)(const void *shape, Vec3 p);                 /* NULL: never inside */
     void (*surface)(const void *shape, const Hit *hit, Surface *out);  /* for the winner only; see Surface */
     /* The box that min_extent and max_extent report (08-shapes 4.1), in the space `place` takes the shape's own to: some

@@ -59,6 +59,13 @@ static void surface(const void *shape, const Hit *hit, Surface *out)
     out->p = add(out->p, scaled(plane->normal, plane->distance - dot(plane->normal, out->p)));
 }
 
+static void half_space(const void *shape, Vec3 *normal, double *distance)
+{
+    const Params *plane = shape;
+    *normal = plane->normal;
+    *distance = plane->distance;
+}
+
 static Bounds extent(const void *params, const Affine *place)
 {
     (void)params;
@@ -68,5 +75,5 @@ static Bounds extent(const void *params, const Affine *place)
 
 const ShapeOps shape_plane = {
     .keyword = "plane", .params_size = sizeof(Params), .flags = SHAPE_CONVEX, .parse = parse, .compile = compile,
-    .hits = hits, .inside = inside, .surface = surface, .extent = extent,
+    .hits = hits, .inside = inside, .surface = surface, .half_space = half_space, .extent = extent,
 };

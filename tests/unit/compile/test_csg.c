@@ -253,6 +253,39 @@ static void subtrahends_and_planes_get_the_box_of_the_whole(void **state)
     arena_free(&a);
 }
 
+/* Random half spaces around the origin, many of them endless together: every hit lies in the box that its plane was given. */
+static void planes_together_get_a_box_that_holds_all_hits(void **state)
+{
+    (void)state;
+    int boxed = 0;
+    for (uint32_t seed = 1; seed <= 300; seed++) {
+        Arena a;
+        arena_init(&a);
+        Dice d = { seed };
+        const Object *part[9];
+        uint32_t n = 3 + seed % 7;
+        for (uint32_t i = 0; i < n; i++) {
+            part[i] = half_space(&a, dice_direction(&d), dice(&d));
+            if (i % 3 == 1)
+                part[i] = inverted(&a, half_space(&a, dice_direction(&d), -dice(&d)));
+            if (i % 4 == 3)
+                part[i] = placed(&a, part[i], affine_then(affine_scale(vec3(1, 2, 0.5)), affine_rotate(dice_point(&d, 90))));
+        }
+        const Object *o = combined(&a, OBJECT_INTERSECTION, n, part);
+        World *w = world_of(&a, 1, &o, "bvh"), *list = world_of(&a, 1, &o, "list");
+        boxed += w->n_unbounded == 0;
+        for (int i = 0; i < 100; i++) {
+            Ray ray = random_ray(&d, 1);
+            Hit x, y;
+            bool hit = world_nearest(list, &ray, 0, &x);
+            assert_int_equal(hit, world_nearest(w, &ray, 0, &y));
+            assert_true(!hit || (x.t == y.t && x.prim == y.prim && bounds_contain(list->box[x.prim], ray_at(&ray, x.t))));
+        }
+        arena_free(&a);
+    }
+    assert_in_range(boxed, 50, 250);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -263,6 +296,7 @@ int main(void)
         cmocka_unit_test(a_clip_cuts_hits_and_inside_but_is_never_inverted),
         cmocka_unit_test(a_small_bound_cuts_and_a_large_one_is_dropped),
         cmocka_unit_test(copies_of_a_shared_shape_share_its_data),
+        cmocka_unit_test(planes_together_get_a_box_that_holds_all_hits),
         cmocka_unit_test(subtrahends_and_planes_get_the_box_of_the_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -150,8 +150,15 @@ static void half_surface(const void *shape, const Hit *hit, Surface *out)
     out->normal = ((const Half *)shape)->normal;
 }
 
+static void half_of(const void *shape, Vec3 *normal, double *distance)
+{
+    const Half *h = shape;
+    *normal = h->normal;
+    *distance = h->distance;
+}
+
 const ShapeOps body_half = { .keyword = "half", .params_size = sizeof(Half), .compile = half_compile, .hits = half_hits,
-                             .inside = half_inside, .surface = half_surface };
+                             .half_space = half_of, .inside = half_inside, .surface = half_surface };
 
 /* ---- objects ---- */
 
