@@ -168,7 +168,7 @@ static bool quadratic(const double *b, double *root, int *found)
     return true;
 }
 
-int bernstein_roots(const double *b, int n, double *root)
+int bernstein_search(const double *b, int n, double *root)
 {
     if (n == 1) {
         if ((b[0] < 0) == (b[1] < 0))

@@ -7,8 +7,16 @@
 
 enum { BERNSTEIN_MAX = 12 };
 
+int bernstein_search(const double *b, int n, double *root);
+
 /* Where the sign changes, ascending; zero counts as positive. An odd number of roots if and only if the ends differ. */
-int bernstein_roots(const double *b, int n, double *root);
+static inline int bernstein_roots(const double *b, int n, double *root)
+{
+    for (int i = 1; i <= n; i++)
+        if ((b[i] < 0) != (b[0] < 0))
+            return bernstein_search(b, n, root);
+    return 0;
+}
 
 double bernstein_value(const double *b, int n, double u);
 double bernstein_slope(const double *b, int n, double u);      /* derivative at u */

@@ -28,7 +28,7 @@ typedef struct {
     uint32_t component;
     double strength, length;
     Vec3 centre;                               /* plain balls: (p - centre) * shrink is in units of the radius */
-    double shrink;                             /* 0: by the matrix */
+    double shrink, radius;                     /* 0: by the matrix */
     double to_unit[4][3];
 } Element;
 
@@ -130,6 +130,7 @@ static void plain_ball(Element *e, const Component *c, double unit)
 {
     e->centre = scaled(c->a, 1 / unit);
     e->shrink = unit / fabs(c->radius);
+    e->radius = fabs(c->radius) / unit;
 }
 
 static void matrix_of(Element *e, const Affine *place, double unit, double from_z)
@@ -258,39 +259,66 @@ static void cut(double z, double dz, double lo, double hi, double *s0, double *s
     *s1 = fmin(*s1, fmax(a, b));
 }
 
+/* A plain ball: u is of unit length, so little is left to divide. */
+static bool cross_ball(const Line *l, const Element *e, Active *x)
+{
+    Vec3 v = sub(e->centre, l->o);
+    double shrink2 = e->shrink * e->shrink;
+    x->middle = dot(v, l->u);
+    x->least = length2(sub(v, scaled(l->u, x->middle))) * shrink2;
+    if (!(x->least < 1))
+        return false;
+    double half = sqrt(1 - x->least) * e->radius;
+    x->a = shrink2;
+    x->s0 = x->middle - half;
+    x->s1 = x->middle + half;
+    return true;
+}
+
+static bool cross_mapped(const Line *l, const Element *e, Active *x)
+{
+    Vec3 o = affine_apply(e->to_unit, l->o), u = affine_apply_linear(e->to_unit, l->u);
+    double z = o.z, dz = u.z;
+    if (e->kind == BODY)
+        o.z = u.z = 0;
+    x->s0 = -INFINITY;
+    x->s1 = INFINITY;
+    x->middle = 0;
+    x->a = length2(u);
+    if (x->a > 0) {
+        x->middle = -dot(o, u) / x->a;
+        x->least = length2(add(o, scaled(u, x->middle)));
+        if (!(x->least < 1))
+            return false;
+        double half = sqrt((1 - x->least) / x->a);
+        x->s0 = x->middle - half;
+        x->s1 = x->middle + half;
+    } else if (!((x->least = length2(o)) < 1))
+        return false;
+    if (e->kind == BODY)
+        cut(z, dz, 0, e->length, &x->s0, &x->s1);
+    else if (e->kind == LOW_HALF)
+        cut(z, dz, -2, 0, &x->s0, &x->s1);
+    else if (e->kind == HIGH_HALF)
+        cut(z, dz, 0, 2, &x->s0, &x->s1);
+    return x->s0 < x->s1;
+}
+
 static bool visit(void *user, uint32_t item, double *t_max)
 {
     (void)t_max;
     Line *l = user;
     const Element *e = &l->blob->element[item];
-    Vec3 o = to_unit(e, l->o), u = e->shrink != 0 ? scaled(l->u, e->shrink) : affine_apply_linear(e->to_unit, l->u);
-    double z = o.z, dz = u.z;
-    if (e->kind == BODY)
-        o.z = u.z = 0;
-    Active x = { .s0 = -INFINITY, .s1 = INFINITY, .strength = e->strength, .element = item, .a = length2(u) };
-    if (x.a > 0) {
-        x.middle = -dot(o, u) / x.a;
-        x.least = length2(add(o, scaled(u, x.middle)));
-        if (!(x.least < 1))
-            return false;
-        double half = sqrt((1 - x.least) / x.a);
-        x.s0 = x.middle - half;
-        x.s1 = x.middle + half;
-    } else if (!((x.least = length2(o)) < 1))
-        return false;
-    if (e->kind == BODY)
-        cut(z, dz, 0, e->length, &x.s0, &x.s1);
-    else if (e->kind == LOW_HALF)
-        cut(z, dz, -2, 0, &x.s0, &x.s1);
-    else if (e->kind == HIGH_HALF)
-        cut(z, dz, 0, 2, &x.s0, &x.s1);
-    if (!(x.s0 < x.s1) || x.s1 < l->from || x.s0 > l->to)
-        return false;
     if (l->n == MOST_ACTIVE) {
         l->full = true;
         return true;
     }
-    l->active[l->n++] = x;
+    Active *x = &l->active[l->n];
+    if (!(e->shrink != 0 ? cross_ball(l, e, x) : cross_mapped(l, e, x)) || x->s1 < l->from || x->s0 > l->to)
+        return false;
+    x->strength = e->strength;
+    x->element = item;
+    l->n++;
     return false;
 }
 
@@ -299,19 +327,25 @@ static bool event_before(const Line *l, const Event *a, const Event *b)
     return a->s < b->s || (a->s == b->s && l->active[a->active].element < l->active[b->active].element);
 }
 
-/* Shell sort: short lists, hardly ever long ones. */
+static void insert_events(Line *l, uint32_t gap)
+{
+    for (uint32_t i = gap, n = 2 * l->n; i < n; i++) {
+        Event e = l->event[i];
+        uint32_t k = i;
+        for (; k >= gap && event_before(l, &e, &l->event[k - gap]); k -= gap)
+            l->event[k] = l->event[k - gap];
+        l->event[k] = e;
+    }
+}
+
+/* Shell sort: lists are short, hardly ever long. */
 static void sort_events(Line *l)
 {
-    static const uint32_t gaps[] = { 1750, 701, 301, 132, 57, 23, 10, 4, 1 };
-    uint32_t n = 2 * l->n;
+    static const uint32_t gaps[] = { 1750, 701, 301, 132, 57, 23, 10 };
     for (size_t g = 0; g < sizeof gaps / sizeof *gaps; g++)
-        for (uint32_t i = gaps[g]; i < n; i++) {
-            Event e = l->event[i];
-            uint32_t k = i;
-            for (; k >= gaps[g] && event_before(l, &e, &l->event[k - gaps[g]]); k -= gaps[g])
-                l->event[k] = l->event[k - gaps[g]];
-            l->event[k] = e;
-        }
+        if (gaps[g] < l->n)
+            insert_events(l, gaps[g]);
+    insert_events(l, 1);
 }
 
 /* The live ones stand in order of their elements, so that sums do not depend on how they were found. */
@@ -337,7 +371,7 @@ static bool quartic_over(const Line *l, uint32_t n, double x, double y, double f
 {
     double most = 0;
     for (uint32_t i = 0; i < n; i++)
-        most += fmax(l->active[l->live[i]].strength, 0);
+        most += greater(l->active[l->live[i]].strength, 0);
     if (most < l->blob->threshold)
         return false;
     for (int k = 0; k < 5; k++)
@@ -345,7 +379,7 @@ static bool quartic_over(const Line *l, uint32_t n, double x, double y, double f
     for (uint32_t i = 0; i < n; i++) {
         const Active *a = &l->active[l->live[i]];
         double dx = x - a->middle, dy = y - a->middle;
-        double g0 = fmax(0, 1 - (a->least + a->a * dx * dx)), g2 = fmax(0, 1 - (a->least + a->a * dy * dy));
+        double g0 = greater(0, 1 - (a->least + a->a * dx * dx)), g2 = greater(0, 1 - (a->least + a->a * dy * dy));
         double g1 = 1 - (a->least + a->a * dx * dy);
         f[0] += a->strength * g0 * g0;
         f[1] += a->strength * g0 * g1;
@@ -401,8 +435,8 @@ static void collect(Line *l)
             visit(l, i, NULL);
 }
 
-/* All components that the line meets are collected, also those out of the ray's range: what the range is must not change
- * a sum. Only when there are too many at once the line is done in stretches. */
+/* All components that the line meets from the ray's beginning are collected, also those beyond its range: where that ends must
+ * not change a sum. Only when there are too many at once the line is done in stretches. */
 static void hits(const void *shape, const Ray *ray, HitSink *sink)
 {
     const Blob *b = shape;
@@ -414,9 +448,9 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     l.shift = -dot(sub(ray->o, b->middle), l.u) / l.len;
     l.o = ray_at(ray, l.shift);
     l.limit = (hit_limit(sink) - l.shift) * l.len;
-    l.from = -b->reach;
-    l.to = b->reach;
     double start = (ray->t_min - l.shift) * l.len, least = b->reach * 0x1p-40;
+    l.from = greater(start, -b->reach);
+    l.to = b->reach;
     while (l.from < b->reach && l.from <= l.limit) {
         collect(&l);
         if (l.full && l.to - l.from > least) {

@@ -47,18 +47,35 @@ static void components(const CurvePiece *c, double *u, double *v)
     }
 }
 
+static Vec2 between(Vec2 a, Vec2 b, double w)
+{
+    return (Vec2){ a.u + w * (b.u - a.u), a.v + w * (b.v - a.v) };
+}
+
+/* De Casteljau. */
 Vec2 curve_at(const CurvePiece *c, double w)
 {
-    double u[4], v[4];
-    components(c, u, v);
-    return (Vec2){ bernstein_value(u, c->degree, w), bernstein_value(v, c->degree, w) };
+    Vec2 a = between(c->p[0], c->p[1], w);
+    if (c->degree == 1)
+        return a;
+    Vec2 b = between(c->p[1], c->p[2], w), ab = between(a, b, w);
+    return c->degree == 2 ? ab : between(ab, between(b, between(c->p[2], c->p[3], w), w), w);
+}
+
+static Vec2 step(Vec2 a, Vec2 b, double by)
+{
+    return (Vec2){ by * (b.u - a.u), by * (b.v - a.v) };
 }
 
 Vec2 curve_slope(const CurvePiece *c, double w)
 {
-    double u[4], v[4];
-    components(c, u, v);
-    return (Vec2){ bernstein_slope(u, c->degree, w), bernstein_slope(v, c->degree, w) };
+    Vec2 a = c->p[0], b = c->p[1];
+    if (c->degree == 1)
+        return step(a, b, 1);
+    Vec2 ab = between(a, b, w), bc = between(b, c->p[2], w);
+    if (c->degree == 2)
+        return step(ab, bc, 2);
+    return step(between(ab, bc, w), between(bc, between(c->p[2], c->p[3], w), w), 3);
 }
 
 static bool odd_beyond(const CurvePiece *c, double u, double v)

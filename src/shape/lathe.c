@@ -158,6 +158,25 @@ static void piece_hits(const CurvePiece *c, uint32_t part, const Line *l)
     }
 }
 
+static double rho2_at(const Line *l, double s)
+{
+    return l->o2 + s * (2 * l->m + s * l->r);
+}
+
+/* While the ray is at the heights of the piece, is it ever as far from the axis as the piece is? */
+static bool may_meet(const CurvePiece *c, const Line *l, double near, double far, double room)
+{
+    double s0 = near, s1 = far;
+    if (fabs(l->u.y) > LEVEL) {
+        double a = (c->lo.v - room - l->o.y) / l->u.y, b = (c->hi.v + room - l->o.y) / l->u.y;
+        s0 = greater(s0, lesser(a, b));
+        s1 = lesser(s1, greater(a, b));
+    }
+    double most = greater(fabs(c->lo.u), fabs(c->hi.u)) + room, least = greater(c->lo.u - room, 0);
+    double nearest = l->r > 1e-9 ? rho2_at(l, lesser(greater(-l->m / l->r, s0), s1)) : 0;
+    return s0 <= s1 + room && nearest <= most * most && greater(rho2_at(l, s0), rho2_at(l, s1)) >= least * least;
+}
+
 static void hits(const void *shape, const Ray *ray, HitSink *sink)
 {
     const Lathe *a = shape;
@@ -178,11 +197,10 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     }
     bool level = fabs(l.u.y) < LEVEL;
     double ya = l.o.y + near * l.u.y, yb = l.o.y + far * l.u.y;
-    double lo = fmin(ya, yb) - 1e-9 * size, hi = fmax(ya, yb) + 1e-9 * size;
+    double lo = lesser(ya, yb) - 1e-9 * size, hi = greater(ya, yb) + 1e-9 * size;
     for (uint32_t k = 0; k < a->curve.n; k++) {
         const CurvePiece *c = &a->curve.piece[k];
-        double most = fmax(fabs(c->lo.u), fabs(c->hi.u)) + margin;
-        if (c->hi.v < lo || c->lo.v > hi || cross * cross > most * most * l.r * (1 + 1e-9))
+        if (c->hi.v < lo || c->lo.v > hi || !may_meet(c, &l, near, far, 1e-9 * size))
             continue;
         if (level)
             level_hits(c, k, &l);

@@ -2,7 +2,6 @@
  *
  * The body is convex, so whatever its three surfaces offer, a ray enters at the first hit and leaves at the last: no
  * gap can open at the joints (08-shapes, section 21). */
-#include "math/roots.h"
 #include "sdl/parse.h"
 #include "shape/shape.h"
 
@@ -92,41 +91,70 @@ static void ball(Vec3 o, Vec3 u, double centre, double radius, double lo, double
     }
 }
 
-/* The distance to the meridian's circle, zero on it, made small by a step of Newton's that the quartic leaves to do. */
-static double polished(const Ovus *e, Vec3 o, Vec3 u, double s)
+/* The stretch of the ray at the heights of the joining part and near enough to the axis. */
+static bool reach(const Ovus *e, Vec3 o, Vec3 u, double slack, double *in, double *out)
 {
-    for (int i = 0; i < 2; i++) {
-        Vec3 p = add(o, scaled(u, s));
-        double rho = sqrt(p.x * p.x + p.z * p.z), off = rho + e->ring, y = p.y - e->height;
-        if (rho == 0)
-            return s;
-        double f = off * off + y * y - e->radius * e->radius;
-        double step = f / (2 * (off * (p.x * u.x + p.z * u.z) / rho + y * u.y));
-        if (!(fabs(step) < 1e-4 * e->radius))
-            return s;
-        s -= step;
+    double most = e->radius - e->ring + slack, a = u.x * u.x + u.z * u.z, size = 4 * (e->bottom + e->top);
+    *in = -size;                               /* o is the point nearest to the middle */
+    *out = size;
+    if (u.y != 0) {
+        double t0 = (e->lower - slack - o.y) / u.y, t1 = (e->upper + slack - o.y) / u.y;
+        *in = greater(*in, lesser(t0, t1));
+        *out = lesser(*out, greater(t0, t1));
+    } else if (o.y < e->lower - slack || o.y > e->upper + slack)
+        return false;
+    if (a > 1e-9) {
+        double b = o.x * u.x + o.z * u.z, cross = o.x * u.z - o.z * u.x, h2 = most * most - cross * cross / a;
+        if (h2 < 0)
+            return false;
+        double half = sqrt(h2 / a);
+        *in = greater(*in, -b / a - half);
+        *out = lesser(*out, -b / a + half);
     }
-    return s;
+    return *in < *out;
+}
+
+/* The distance to the meridian's circle through both, less its radius; along the ray it is convex. */
+static double beyond(const Ovus *e, Vec3 o, Vec3 u, double s, double *slope)
+{
+    Vec3 p = add(o, scaled(u, s));
+    double rho = sqrt(p.x * p.x + p.z * p.z), off = rho + e->ring, y = p.y - e->height, d = sqrt(off * off + y * y);
+    double turn = rho > 0 ? (p.x * u.x + p.z * u.z) / rho : sqrt(u.x * u.x + u.z * u.z);
+    *slope = (off * turn + y * u.y) / d;
+    return ((off - e->radius) * (off + e->radius) + y * y) / (d + e->radius);
+}
+
+/* Newton's steps from outside a convex body never pass its surface. */
+static void approach(const Ovus *e, Vec3 o, Vec3 u, double s, double end, double slack, Span *span)
+{
+    double way = end - s;
+    for (int i = 0; i < 60; i++) {
+        double slope, f = beyond(e, o, u, s, &slope);
+        if (f < 0.25 * slack) {
+            if (i > 0 || f > -slack)           /* else it begins within, behind a joint */
+                span_add(span, s);
+            return;
+        }
+        if (!(slope * way < 0))
+            return;
+        double next = s - f / slope;
+        if ((end - next) * way < 0)
+            return;
+        if (next == s) {
+            span_add(span, s);
+            return;
+        }
+        s = next;
+    }
 }
 
 static void between(const Ovus *e, Vec3 o, Vec3 u, double slack, Span *span)
 {
-    double reach = 2 * (e->bottom + e->top + e->radius), root[4];
-    Vec3 q = vec3(o.x, o.y - e->height, o.z);
-    double R2 = e->ring * e->ring, r2 = e->radius * e->radius, k1 = length2(q) - R2 - r2, k2 = dot(q, u);
-    const double c[5] = { k1 * k1 + 4 * R2 * (q.y * q.y - r2), 4 * (k1 * k2 + 2 * R2 * q.y * u.y),
-                          2 * (k1 + 2 * k2 * k2 + 2 * R2 * u.y * u.y), 4 * k2, 1 };
-    int n = roots_between(c, 4, -reach, reach, root);
-    for (int i = 0; i < n; i++) {
-        Vec3 p = add(o, scaled(u, root[i]));
-        double rho = sqrt(p.x * p.x + p.z * p.z), y = p.y - e->height;
-        double inner = (rho + e->ring) * (rho + e->ring) + y * y - r2, outer = inner - 4 * rho * e->ring;
-        if (fabs(inner) > fabs(outer))
-            continue;                          /* the spindle's outer side */
-        double s = polished(e, o, u, root[i]), height = o.y + s * u.y;
-        if (e->lower - slack <= height && height <= e->upper + slack)
-            span_add(span, s);
-    }
+    double in, out;
+    if (!reach(e, o, u, slack, &in, &out))
+        return;
+    approach(e, o, u, in, out, slack, span);
+    approach(e, o, u, out, in, slack, span);
 }
 
 static void hits(const void *shape, const Ray *ray, HitSink *sink)
@@ -143,7 +171,8 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
         double slack = 16 * DBL_EPSILON * (e->bottom + e->top);
         ball(o, u, 0, e->bottom, -INFINITY, e->lower + slack, &span);
         ball(o, u, e->bottom, e->top, e->upper - slack, INFINITY, &span);
-        between(e, o, u, slack, &span);
+        if (!(span.first < span.last))         /* a convex body has two hits */
+            between(e, o, u, slack, &span);
     }
     if (span.first > span.last)
         return;

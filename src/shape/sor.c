@@ -7,7 +7,7 @@
 #include "shape/shape.h"
 
 typedef struct { const Vec2 *point; uint32_t n; } Params;
-typedef struct { double y0, y1, b[4], most2; } Segment;    /* radius^2 over [y0, y1]; its bound */
+typedef struct { double y0, y1, b[4], least2, most2; } Segment;    /* radius^2 over [y0, y1]; its bounds */
 typedef struct { uint32_t n; bool open; double most, y0, y1, end2[2]; Segment segment[]; } Sor;
 
 static void parse(Parser *p, void *params)
@@ -51,9 +51,12 @@ static Segment segment_of(const Params *s, uint32_t k, double unit)
     g.b[2] = g.b[3] - third * slope_at(p, 2);
     double d[3] = { g.b[1] - g.b[0], g.b[2] - g.b[1], g.b[3] - g.b[2] }, root[2];
     g.most2 = fmax(g.b[0], g.b[3]);
+    g.least2 = fmin(g.b[0], g.b[3]);
     int n = bernstein_roots(d, 2, root);
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < n; i++) {
         g.most2 = fmax(g.most2, bernstein_value(g.b, 3, root[i]));
+        g.least2 = fmin(g.least2, bernstein_value(g.b, 3, root[i]));
+    }
     return g;
 }
 
@@ -80,7 +83,21 @@ static void compile(ShapeBuild *b, const void *params)
 }
 
 /* The ray with its origin near the shape, its direction of unit length. */
-typedef struct { Vec3 o, u; } Line;
+typedef struct { Vec3 o, u; double middle; } Line;         /* middle: nearest to the axis */
+
+/* The first segment that reaches up to y, or the last. */
+static uint32_t segment_index(const Sor *s, double y)
+{
+    uint32_t lo = 0, hi = s->n - 1;
+    while (lo < hi) {
+        uint32_t middle = (lo + hi) / 2;
+        if (y <= s->segment[middle].y1)
+            hi = middle;
+        else
+            lo = middle + 1;
+    }
+    return lo;
+}
 
 static double rho2_at(const Line *l, double s)
 {
@@ -126,6 +143,11 @@ static void sides(const Sor *s, uint32_t k, const Line *l, double near, double f
         return;
     if (!(s0 < s1))
         return;
+    /* The ray's squared distance from the axis is least at `middle` and greatest at an end. */
+    double lo = rho2_at(l, lesser(greater(l->middle, s0), s1)), hi = greater(rho2_at(l, s0), rho2_at(l, s1));
+    double room = 1e-9 * s->most * s->most;
+    if (lo > g->most2 + room || (hi < g->least2 - room && s0 != near && s1 != far))
+        return;
     cubic_along(g, l, s0, s1, f);
     f[0] = s0 == near ? -fabs(f[0]) : at0;     /* beyond the greatest radius one is outside */
     f[3] = s1 == far ? -fabs(f[3]) : at1;
@@ -135,14 +157,15 @@ static void sides(const Sor *s, uint32_t k, const Line *l, double near, double f
 }
 
 /* The part of the ray within the greatest radius; beyond it there is only outside. */
-static bool reach(const Sor *s, const Line *l, double *near, double *far)
+static bool reach(const Sor *s, Line *l, double *near, double *far)
 {
     double size = 4 * (s->most + (s->y1 - s->y0)), r = l->u.x * l->u.x + l->u.z * l->u.z;
     *near = -size;                             /* the origin is the point nearest to the middle */
     *far = size;
     if (r < 1e-9)                              /* nearly along the axis: the ends of the segments bound it */
         return true;
-    double middle = -(l->o.x * l->u.x + l->o.z * l->u.z) / r, h2 = s->most * s->most * (1 + 1e-12) - rho2_at(l, middle);
+    double middle = l->middle = -(l->o.x * l->u.x + l->o.z * l->u.z) / r;
+    double h2 = s->most * s->most * (1 + 1e-12) - rho2_at(l, middle);
     if (h2 < 0)
         return false;
     *near = fmax(*near, middle - sqrt(h2 / r));
@@ -159,7 +182,9 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     l.o = ray_at(ray, shift);
     if (!reach(s, &l, &near, &far))
         return;
-    for (uint32_t k = 0; k < s->n; k++)
+    double ya = l.o.y + near * l.u.y, yb = l.o.y + far * l.u.y, room = 1e-9 * (s->most + s->y1 - s->y0);
+    uint32_t first = segment_index(s, lesser(ya, yb) - room), last = segment_index(s, greater(ya, yb) + room);
+    for (uint32_t k = first; k <= last; k++)
         sides(s, k, &l, near, far, shift, len, sink);
     /* POV leaves ends of a radius below 0.01 open, whatever the size; here a closed end is closed. */
     for (uint32_t i = 0; i < 2 && !s->open && l.u.y != 0; i++) {
@@ -169,25 +194,12 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     }
 }
 
-static const Segment *segment_at(const Sor *s, double y)
-{
-    uint32_t lo = 0, hi = s->n - 1;
-    while (lo < hi) {
-        uint32_t middle = (lo + hi) / 2;
-        if (y <= s->segment[middle].y1)
-            hi = middle;
-        else
-            lo = middle + 1;
-    }
-    return &s->segment[lo];
-}
-
 static bool inside(const void *shape, Vec3 p)
 {
     const Sor *s = shape;
     if (!(s->y0 <= p.y && p.y <= s->y1))
         return false;
-    const Segment *g = segment_at(s, p.y);
+    const Segment *g = &s->segment[segment_index(s, p.y)];
     return p.x * p.x + p.z * p.z <= bernstein_value(g->b, 3, (p.y - g->y0) / (g->y1 - g->y0));
 }
 

@@ -279,9 +279,22 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
         if (curve_inside(&g->outline, o.x + t * d.x, o.y + t * d.y))
             hit_add(sink, shift + t, g->outline.n + i);
     }
-    if (d.x != 0 || d.y != 0)
-        for (uint32_t i = 0; i < g->outline.n; i++)
+    if (d.x == 0 && d.y == 0)
+        return;
+    /* Over the thickness the ray stays in this box. */
+    Vec2 lo = { -INFINITY, -INFINITY }, hi = { INFINITY, INFINITY };
+    double room = 1e-9 * (1 + fabs(g->thickness));
+    if (fabs(d.z) > 1e-6 * (fabs(d.x) + fabs(d.y))) {
+        double t0 = -o.z / d.z, t1 = (g->thickness - o.z) / d.z;
+        double xa = o.x + t0 * d.x, xb = o.x + t1 * d.x, ya = o.y + t0 * d.y, yb = o.y + t1 * d.y;
+        lo = (Vec2){ lesser(xa, xb) - room, lesser(ya, yb) - room };
+        hi = (Vec2){ greater(xa, xb) + room, greater(ya, yb) + room };
+    }
+    for (uint32_t i = 0; i < g->outline.n; i++) {
+        const CurvePiece *c = &g->outline.piece[i];
+        if (c->lo.u <= hi.u && c->hi.u >= lo.u && c->lo.v <= hi.v && c->hi.v >= lo.v)
             side_hits(g, i, o, d, shift, sink);
+    }
 }
 
 static bool inside(const void *shape, Vec3 p)
