@@ -86,11 +86,6 @@ bool bounds_is_finite(Bounds a)
     return vec3_finite(a.lo) && vec3_finite(a.hi);
 }
 
-bool bounds_contain(Bounds a, Vec3 p)
-{
-    return a.lo.x <= p.x && p.x <= a.hi.x && a.lo.y <= p.y && p.y <= a.hi.y && a.lo.z <= p.z && p.z <= a.hi.z;
-}
-
 double bounds_area(Bounds a)
 {
     if (bounds_is_empty(a))

@@ -20,7 +20,11 @@ Bounds bounds_grown(Bounds a, double by);      /* by >= 0 on every side */
 Bounds bounds_transformed(Bounds a, const Affine *place);   /* hull of the corners, padded by the rounding error */
 bool bounds_is_empty(Bounds a);
 bool bounds_is_finite(Bounds a);
-bool bounds_contain(Bounds a, Vec3 p);
 double bounds_area(Bounds a);                  /* of the surface; 0 if empty, INFINITY if unbounded */
+
+static inline bool bounds_contain(Bounds a, Vec3 p)
+{
+    return a.lo.x <= p.x && p.x <= a.hi.x && a.lo.y <= p.y && p.y <= a.hi.y && a.lo.z <= p.z && p.z <= a.hi.z;
+}
 
 #endif

@@ -36,7 +36,8 @@ static inline Vec3 normalized(Vec3 a)
 
 static inline double max_abs(Vec3 a)
 {
-    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
+    double x = fabs(a.x), y = fabs(a.y), z = fabs(a.z), most = x > y ? x : y;  /* fmax would be a call */
+    return most > z ? most : z;
 }
 
 static inline double vec3_at(Vec3 a, int axis) { return axis == 0 ? a.x : axis == 1 ? a.y : a.z; }

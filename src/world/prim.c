@@ -330,7 +330,8 @@ static bool is_zero(Vec3 a)
 /* The largest number in what was added to make o + t d: rounding errors are relative to it. */
 static double magnitude(Vec3 o, Vec3 d, double t)
 {
-    return fmax(max_abs(o), fabs(t) * max_abs(d));
+    double from = max_abs(o), along = fabs(t) * max_abs(d);
+    return from > along ? from : along;
 }
 
 void world_surface(const World *w, const Ray *ray, const Hit *hit, bool want_uv, Surface *out)
