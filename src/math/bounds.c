@@ -13,14 +13,15 @@ Bounds bounds_everything(void)
     return (Bounds){ { -INFINITY, -INFINITY, -INFINITY }, { INFINITY, INFINITY, INFINITY } };
 }
 
-static Vec3 least(Vec3 a, Vec3 b)
+/* b where it is less, else a: what is not a number in b is passed over. */
+static inline Vec3 least(Vec3 a, Vec3 b)
 {
-    return vec3(fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z));
+    return vec3(b.x < a.x ? b.x : a.x, b.y < a.y ? b.y : a.y, b.z < a.z ? b.z : a.z);
 }
 
-static Vec3 greatest(Vec3 a, Vec3 b)
+static inline Vec3 greatest(Vec3 a, Vec3 b)
 {
-    return vec3(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z));
+    return vec3(b.x > a.x ? b.x : a.x, b.y > a.y ? b.y : a.y, b.z > a.z ? b.z : a.z);
 }
 
 Bounds bounds_include(Bounds a, Vec3 p)
@@ -32,7 +33,7 @@ Bounds bounds_of_points(const Vec3 *p, size_t n)
 {
     Bounds b = bounds_empty();
     for (size_t i = 0; i < n; i++)
-        b = bounds_include(b, p[i]);
+        b = (Bounds){ least(b.lo, p[i]), greatest(b.hi, p[i]) };
     return b;
 }
 
