@@ -83,8 +83,13 @@ static double closed_in(const double *b, int n)
     for (int k = 1; k <= n; k++)
         a[k] *= choose[n][k];
     bool rising = b[0] < 0;
-    /* Not from an end: a zero there is no change of sign, and the power form rounds it to anything. */
-    double u = fmin(0.9, fmax(0.1, b[0] / (b[0] - b[n]))), last = 1;
+    int cross = 0;
+    while ((b[cross + 1] < 0) == rising)
+        cross++;
+    /* Where the control polygon crosses zero; not at an end: a zero there is no change of sign, and the power form rounds it to
+     * anything. */
+    double u = (cross + b[cross] / (b[cross] - b[cross + 1])) / n, last = 1;
+    u = u < 0.01 ? 0.01 : u > 0.99 ? 0.99 : u;
     for (int i = 0; i < 80; i++) {
         double f = a[n], slope = 0;
         for (int k = n - 1; k >= 0; k--) {
@@ -100,8 +105,10 @@ static double closed_in(const double *b, int n)
         double next = u - f / slope;
         if (!(next >= lo && next <= hi) || fabs(next - u) > 0.5 * last)
             next = 0.5 * (lo + hi);            /* Newton leaves the bracket or dawdles: halve it */
+        else if (fabs(next - u) < 1e-10)
+            return next;                       /* the next step would be the square of this one */
         last = fabs(next - u);
-        if (last <= DBL_EPSILON * fabs(u) || last < 1e-300)
+        if (last <= DBL_EPSILON * fabs(u))
             return next;
         u = next;
     }

@@ -37,13 +37,13 @@ typedef struct {
     uint32_t n, n_textures;
     const uint32_t *texture;                   /* of components; NULL: all have the blob's own */
     Vec3 middle;
-    double reach;                              /* all of it is this near to the middle */
+    Bounds box;                                /* holds all that can be seen */
     const AccelOps *accel_ops;
     const void *accel;
     Element element[];
 } Blob;
 
-enum { FEW = 8, MOST_ACTIVE = 2048 };
+enum { FEW = 8, MANY = 64, STRETCHES = 3, MOST_ACTIVE = 2048 };
 
 /* POV: inside reaches this far below the threshold. */
 static const double INSIDE_SLACK = 1e-6;
@@ -209,7 +209,7 @@ static void compile(ShapeBuild *b, const void *params)
         return;
     out->threshold = from->threshold;
     out->middle = lerp(all.lo, all.hi, 0.5);
-    out->reach = length(sub(all.hi, out->middle));
+    out->box = all;
     out->accel_ops = b->accel;
     out->accel = out->n > FEW ? b->accel->build(b->arena, box, out->n) : NULL;
     textures(b, from, out);
@@ -390,7 +390,7 @@ static bool quartic_over(const Line *l, uint32_t n, double x, double y, double f
     return true;
 }
 
-static void march(Line *l, double start)
+static void march(Line *l)
 {
     for (uint32_t i = 0; i < l->n; i++) {
         l->event[2 * i] = (Event){ l->active[i].s0, i, true };
@@ -405,17 +405,14 @@ static void march(Line *l, double start)
             live_add(l, &n, e->active);
         else
             live_remove(l, &n, e->active);
-        double x = e->s, y = l->event[i + 1].s;
+        double x = greater(e->s, l->from), y = lesser(l->event[i + 1].s, l->to);
         if (x > l->limit || x > l->to)
             return;
-        if (!(x < y) || y < start || !quartic_over(l, n, x, y, f))
+        if (!(x < y) || !quartic_over(l, n, x, y, f))
             continue;
         int found = bernstein_roots(f, 4, root);
-        for (int k = 0; k < found; k++) {
-            double s = x + (y - x) * root[k];
-            if (l->from <= s && s <= l->to)
-                hit_add(l->sink, l->shift + s / l->len, 0);
-        }
+        for (int k = 0; k < found; k++)
+            hit_add(l->sink, l->shift + (x + (y - x) * root[k]) / l->len, 0);
         if (found > 0)
             l->limit = (hit_limit(l->sink) - l->shift) * l->len;
     }
@@ -435,12 +432,32 @@ static void collect(Line *l)
             visit(l, i, NULL);
 }
 
-/* All components that the line meets from the ray's beginning are collected, also those beyond its range: where that ends must
- * not change a sum. Only when there are too many at once the line is done in stretches. */
+/* The part of the line within the box. */
+static bool enter(const Bounds *box, const Line *l, double *in, double *out)
+{
+    *in = -INFINITY;
+    *out = INFINITY;
+    for (int axis = 0; axis < 3; axis++) {
+        double o = vec3_at(l->o, axis), u = vec3_at(l->u, axis), lo = vec3_at(box->lo, axis), hi = vec3_at(box->hi, axis);
+        if (u == 0) {
+            if (o < lo || o > hi)
+                return false;
+            continue;
+        }
+        double a = (lo - o) / u, b = (hi - o) / u;
+        *in = greater(*in, lesser(a, b));
+        *out = lesser(*out, greater(a, b));
+    }
+    return *in <= *out;
+}
+
+/* A blob of many components is done in stretches, to be spared those behind what the ray hits. The stretches depend on where
+ * the ray begins, not on where it ends: that must not change a sum. One with too many components is halved. */
 static void hits(const void *shape, const Ray *ray, HitSink *sink)
 {
     const Blob *b = shape;
     Line l;
+    double end;
     l.blob = b;
     l.sink = sink;
     l.len = length(ray->d);
@@ -448,18 +465,20 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     l.shift = -dot(sub(ray->o, b->middle), l.u) / l.len;
     l.o = ray_at(ray, l.shift);
     l.limit = (hit_limit(sink) - l.shift) * l.len;
-    double start = (ray->t_min - l.shift) * l.len, least = b->reach * 0x1p-40;
-    l.from = greater(start, -b->reach);
-    l.to = b->reach;
-    while (l.from < b->reach && l.from <= l.limit) {
+    if (!enter(&b->box, &l, &l.from, &end))
+        return;
+    l.from = greater((ray->t_min - l.shift) * l.len, l.from);
+    double stretch = b->n > MANY ? (end - l.from) / STRETCHES : end - l.from, least = stretch * 0x1p-30;
+    l.to = b->n > MANY ? l.from + stretch : end;
+    while (l.from < end && l.from <= l.limit) {
         collect(&l);
         if (l.full && l.to - l.from > least) {
             l.to = l.from + 0.5 * (l.to - l.from);
             continue;
         }
-        march(&l, start);
+        march(&l);
         l.from = l.to;
-        l.to = b->reach;
+        l.to = l.to + stretch < end - 0.5 * stretch ? l.to + stretch : end;
     }
 }
 
