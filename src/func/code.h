@@ -53,6 +53,7 @@ typedef struct EvalKernel {
     int lanes;
     double (*one)(const Function *f, const double *arguments);
     void (*few)(const Function *f, const double *const *arguments, double *out, int n);        /* n <= 4 */
+    void (*some)(const Function *f, const double *const *arguments, double *out, int n);       /* n <= 8 */
     void (*many)(const Function *f, const double *const *arguments, double *out, int n);
 } EvalKernel;
 

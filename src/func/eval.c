@@ -82,6 +82,8 @@ void func_eval(const Function *f, const double *const *arguments, double *out, u
             }
         } else if (here <= 4) {
             kernel->few(f, row, out + at, (int)here);
+        } else if (here <= 8) {
+            kernel->some(f, row, out + at, (int)here);
         } else {
             kernel->many(f, row, out + at, (int)here);
         }

@@ -1,4 +1,4 @@
-/* eval_kernel.c - the interpreter of function code, built once per instruction set and within it for 1, 4 and LANES points.
+/* eval_kernel.c - the interpreter of function code, built once per instruction set and within it for 1, 4, 8 and LANES points.
  *
  * Every instruction is a plain loop over the lanes that the compiler turns into vector code; the cost of finding out what to do is
  * shared by all lanes. All widths and sets give the same bits: only IEEE operations and the C library are used, lane by lane. */
@@ -194,6 +194,11 @@ static void run_4(const Function *f, const double *const *arguments, double *out
     run_rows(f, arguments, out, 4, n, run_4);
 }
 
+static void run_8(const Function *f, const double *const *arguments, double *out, int n)
+{
+    run_rows(f, arguments, out, 8, n, run_8);
+}
+
 static void run_lanes(const Function *f, const double *const *arguments, double *out, int n)
 {
     run_rows(f, arguments, out, LANES, n, run_lanes);
@@ -207,4 +212,4 @@ static double run_one(const Function *f, const double *arguments)
     return *run_code(f, r, 1, 1, run_1);
 }
 
-const EvalKernel ISA_NAME(eval_kernel)[1] = { { .lanes = LANES, .one = run_one, .few = run_4, .many = run_lanes } };
+const EvalKernel ISA_NAME(eval_kernel)[1] = { { .lanes = LANES, .one = run_one, .few = run_4, .some = run_8, .many = run_lanes } };

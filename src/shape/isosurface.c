@@ -3,12 +3,12 @@
  * The first root along a ray is sought as the reference does (08-shapes, section 22): an interval is halved, near half first, until it
  * is shorter than the accuracy, and passed over as soon as the ends and the greatest gradient say that no root fits. What is
  * found lies up to the accuracy behind the true surface, and pictures show it, so the same points are asked here; but the midpoints of
- * up to four levels of halving are computed together, in the lanes of one evaluation. */
+ * up to three levels of halving are computed together, in the lanes of one evaluation. */
 #include "func/func.h"
 #include "shape/container.h"
 #include "shape/shape.h"
 
-enum { MAX_LEVELS = 4, MAX_POINTS = 1 << MAX_LEVELS, MAX_HALVINGS = 64, MAX_TRACE = 10 };
+enum { MAX_LEVELS = 3, MAX_POINTS = (1 << MAX_LEVELS) + 1, MAX_HALVINGS = 64, MAX_TRACE = 10 };
 
 typedef struct {
     const Function *f;
@@ -102,43 +102,61 @@ static double value_at(const Search *q, double t)
     return func_call(q->s->f, (const double[]){ p.x, p.y, p.z }) - q->s->threshold;
 }
 
-static void values_at(const Search *q, const double *t, double *out, int n)
+/* Points in order along the ray, 0 and `n` the ends of an interval, the others its repeated midpoints; what f has above the
+ * threshold there. */
+typedef struct Samples { int n; double t[MAX_POINTS], v[MAX_POINTS]; } Samples;
+
+static void fill(const Search *q, Samples *s, int first, int n)
 {
     double x[MAX_POINTS], y[MAX_POINTS], z[MAX_POINTS];
     for (int i = 0; i < n; i++) {
-        Vec3 p = ray_at(q->ray, t[i]);
+        Vec3 p = ray_at(q->ray, s->t[first + i]);
         x[i] = p.x;
         y[i] = p.y;
         z[i] = p.z;
     }
-    func_eval(q->s->f, (const double *const[]){ x, y, z }, out, (uint32_t)n);
+    func_eval(q->s->f, (const double *const[]){ x, y, z }, s->v + first, (uint32_t)n);
     for (int i = 0; i < n; i++)
-        out[i] = q->sign * (out[i] - q->s->threshold);
+        s->v[first + i] -= q->s->threshold;
 }
 
-/* Points in order along the ray, 0 and `n` the ends of an interval, the others its repeated midpoints. */
-typedef struct Samples { int n; double t[MAX_POINTS + 1], v[MAX_POINTS + 1]; } Samples;
-
-static void sample(const Search *q, Samples *s, double a, double va, double b, double vb)
+static void divide(const Search *q, Samples *s, double a, double b, int levels)
 {
-    int levels = 1;
     double length = b - a;
-    while (levels < q->s->levels && length > 2 * q->accuracy) {
-        levels++;
-        length /= 2;
+    while (levels > 1 && length <= 2 * q->accuracy) {
+        levels--;
+        length *= 2;
     }
     s->n = 1 << levels;
     s->t[0] = a;
-    s->v[0] = va;
     s->t[s->n] = b;
-    s->v[s->n] = vb;
     for (int step = s->n; step > 1; step /= 2)
         for (int i = step / 2; i < s->n; i += step)
             s->t[i] = (s->t[i - step / 2] + s->t[i + step / 2]) / 2;
-    if (s->n == 2)
-        s->v[1] = q->sign * value_at(q, s->t[1]);
-    else
-        values_at(q, s->t, s->v, s->n);        /* the first again: full rows are handled faster */
+}
+
+/* A first look from a to b; where functions are dear, at the ends only. */
+static void look(const Search *q, Samples *s, double a, double b)
+{
+    divide(q, s, a, b, q->s->levels > 1 ? q->s->levels : 0);
+    fill(q, s, 0, s->n + 1);
+}
+
+/* Between two samples whose values are known. */
+static void look_closer(const Search *q, Samples *s, const Samples *from, int i)
+{
+    int levels = 1;
+    double length = from->t[i + 1] - from->t[i];
+    for (; levels < q->s->levels && length > 2 * q->accuracy; length /= 2)
+        levels++;
+    divide(q, s, from->t[i], from->t[i + 1], levels);
+    s->v[s->n] = from->v[i + 1];
+    if (s->n == 2) {
+        s->v[0] = from->v[i];
+        s->v[1] = value_at(q, s->t[1]);
+    } else {
+        fill(q, s, 0, s->n);                   /* the first again: full rows are handled faster */
+    }
 }
 
 typedef enum Found { NONE, ROOT, BEYOND } Found;               /* BEYOND: what could still come lies too far away to count */
@@ -156,7 +174,7 @@ static bool may_hold_root(Search *q, double length, double va, double vb)
 
 static Found search(Search *q, const Samples *s, int i, int j, int depth, double *root)
 {
-    double a = s->t[i], b = s->t[j], va = s->v[i], vb = s->v[j];
+    double a = s->t[i], b = s->t[j], va = q->sign * s->v[i], vb = q->sign * s->v[j];
     if (b - a < q->accuracy || depth == MAX_HALVINGS) {
         *root = b;
         return vb < 0 ? ROOT : NONE;
@@ -165,36 +183,33 @@ static Found search(Search *q, const Samples *s, int i, int j, int depth, double
         return BEYOND;
     if (!may_hold_root(q, b - a, va, vb))
         return NONE;
-    Samples deeper;
+    Samples closer;
     if (j - i == 1) {
-        sample(q, &deeper, a, va, b, vb);
-        s = &deeper;
+        look_closer(q, &closer, s, i);
+        s = &closer;
         i = 0;
-        j = deeper.n;
+        j = closer.n;
     }
     int middle = (i + j) / 2;
     Found found = search(q, s, i, middle, depth + 1, root);
     return found != NONE ? found : search(q, s, middle, j, depth + 1, root);
 }
 
-static Found first_root(Search *q, double a, double b, double *root)
+static void report_roots(Search *q, Samples *s, int left, HitSink *sink)
 {
-    const Isosurface *s = q->s;
-    if (s->evaluates && q->gradient > s->evaluate[0])
-        q->gradient *= s->evaluate[2];
-    Samples ends;
-    ends.t[0] = a;
-    ends.t[1] = b;
-    values_at(q, ends.t, ends.v, 2);
-    return search(q, &ends, 0, 1, 0, root);
-}
-
-/* Where a search may begin: not within the accuracy of a surface that the ray has just left. */
-static void leave_surface(Search *q, double *t0)
-{
-    *t0 = 5 * q->accuracy;
-    if (value_at(q, *t0) < 0)
-        q->sign = -1;
+    double end = s->t[s->n], root;
+    for (; left > 0; left--) {
+        if (q->s->evaluates && q->gradient > q->s->evaluate[0])
+            q->gradient *= q->s->evaluate[2];
+        if (search(q, s, 0, s->n, 0, &root) != ROOT)
+            return;
+        hit_add(sink, root, 0);
+        double next = root + 5 * q->accuracy;
+        if (left == 1 || end - next < q->accuracy)
+            return;
+        q->sign = -q->sign;
+        look(q, s, next, end);
+    }
 }
 
 static void hits(const void *shape, const Ray *ray, HitSink *sink)
@@ -209,34 +224,27 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
                  .gradient = s->max_gradient };
     double near = 4 * s->max_gradient * s->accuracy;
     int left = s->max_trace;
-    bool leaves = false;
     t0 = fmax(t0, 0);
-    if (!s->open && t0 > q.accuracy) {
-        if (value_at(&q, t0) < 0) {
-            hit_add(sink, t0, enter);
-            left--;
-            q.sign = -1;
-        }
-    } else if (!s->open) {
-        if (value_at(&q, t0) < near)
-            leave_surface(&q, &t0);
-        leaves = value_at(&q, t1) < 0;
+    bool starts_outside = t0 > q.accuracy;
+    if (!starts_outside) {                     /* on the surface that the ray has just left, perhaps: not within the accuracy of it */
+        double v = value_at(&q, t0);
+        if ((s->open ? fabs(v) : v) < near)
+            t0 = 5 * q.accuracy;
     }
     if (t1 - t0 < q.accuracy)
         return;
-    if (leaves)
+    Samples samples;
+    look(&q, &samples, t0, t1);
+    bool starts_inside = samples.v[0] < 0;
+    if (starts_inside)
+        q.sign = -1;
+    if (!s->open && starts_outside && starts_inside) {
+        hit_add(sink, t0, enter);
+        left--;
+    } else if (!s->open && !starts_outside && samples.v[samples.n] < 0) {
         hit_add(sink, t1, leave);
-    if (t0 < q.accuracy && q.sign > 0 && fabs(value_at(&q, t0)) < near)
-        leave_surface(&q, &t0);
-    if (s->open && q.sign * value_at(&q, t0) < 0)
-        q.sign = -q.sign;
-    for (double root; left > 0 && first_root(&q, t0, t1, &root) == ROOT; left--) {
-        hit_add(sink, root, 0);
-        t0 = root + 5 * q.accuracy;
-        if (t1 - t0 < q.accuracy)
-            break;
-        q.sign = -q.sign;
     }
+    report_roots(&q, &samples, left, sink);
 }
 
 static bool inside(const void *shape, Vec3 p)
