@@ -244,7 +244,7 @@ static bool of_several(Parser *p, int keyword, Num *out)
     case KW_RAND: set(out, random_of(p, loc)); return true;
     case KW_SEED: set(out, seed_of(p)); return true;
     case KW_NOW: set(out, now()); return true;
-    case KW_DEFINED: set(out, cursor_is_defined(p)); return true;
+    case KW_DEFINED: set(out, flow_is_defined(p)); return true;
     case KW_DIMENSIONS: set(out, dimensions(p)); return true;
     case KW_DIMENSION_SIZE: set(out, dimension_size(p)); return true;
     case KW_INSIDE: set(out, inside(p, loc)); return true;

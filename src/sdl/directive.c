@@ -299,7 +299,7 @@ static void include(Parser *p, Loc loc)
 
 static void run(Parser *p, const Token *t)
 {
-    if (cursor_directive(p, t))
+    if (flow_directive(p, t))
         return;
     switch (t->directive) {
     case KW_DECLARE: declare(p, false); break;

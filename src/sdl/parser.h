@@ -133,8 +133,21 @@ bool cursor_raw_accept(Parser *p, int kind, char c);       /* takes it if it is 
 bool cursor_raw_at(Parser *p, int kind, char c);
 void cursor_enter_macro(Parser *p, const Macro *macro, Loc called);
 void cursor_include(Parser *p, Str name, Loc loc);
-bool cursor_directive(Parser *p, const Token *t);          /* of the flow of control; false if it is another */
-bool cursor_is_defined(Parser *p);             /* (X) or (A[i]) */
+
+static inline Reader *cursor_top(Parser *p)
+{
+    return &p->reader[p->n_readers - 1];
+}
+
+Reader *cursor_push_reader(Parser *p, Loc loc);
+bool cursor_end_reader(Parser *p);             /* the reader on top has nothing left; false at the end of the main file */
+Conditional *cursor_push_conditional(Parser *p, ConditionalKind kind, Loc loc);
+/* From a directive in a file, just read, to its #end: as an array. */
+const Capture *cursor_capture(Parser *p, Lexer *l, const Token *first);
+bool cursor_opens(int directive);              /* does it want an #end? */
+bool cursor_branches(int directive);           /* #else and the like */
+uint32_t cursor_end_of(const Token *tokens, uint32_t i);   /* index of the #end that closes the directive at i */
+
 uint32_t cursor_here(Parser *p);               /* index of the directive just read, if the reader is an array */
 void cursor_start(Parser *p, uint16_t source, Str text);
 Loc cursor_loc(Parser *p);
@@ -158,6 +171,10 @@ static inline int cursor_look(Parser *p)
     cursor_fetch(p);
     return p->token.kind;
 }
+
+/* flow.c */
+bool flow_directive(Parser *p, const Token *t);            /* false if it is not one of the flow of control */
+bool flow_is_defined(Parser *p);               /* (X) or (A[i]) */
 
 /* directive.c */
 void directive_flush_debug(Parser *p);
