@@ -7,7 +7,8 @@
 #include "shape/shape.h"
 
 typedef struct { double e, n; } Params;
-typedef struct { double p, q; } Super;                     /* 2/e, 2/n; may be infinite */
+typedef struct { double p; int doublings; } Exponent;      /* p may be infinite; p = 2^doublings, or -1 */
+typedef struct { Exponent p, q; } Super;                   /* 2/e, 2/n */
 typedef struct { double f, slope; } Sample;                /* along the ray */
 
 static void parse(Parser *p, void *params)
@@ -18,38 +19,88 @@ static void parse(Parser *p, void *params)
         parse_fail(p, "the exponents of a superellipsoid cannot be negative");
 }
 
+/* Small powers of two are squared and rooted: many are e = 1, 0.5 or 0.25. */
+static Exponent exponent(double p)
+{
+    int e;
+    return (Exponent){ p, isfinite(p) && frexp(p, &e) == 0.5 && e >= 1 && e <= 5 ? e - 1 : -1 };
+}
+
 static void compile(ShapeBuild *b, const void *params)
 {
     const Params *s = params;
     Super *out = build_data(b, sizeof *out);
-    *out = (Super){ 2 / s->e, 2 / s->n };
+    *out = (Super){ exponent(2 / s->e), exponent(2 / s->n) };
     Affine place = build_place(b, 1);
     build_prim(b, out, &place, shape_padded((Bounds){ vec3(-1, -1, -1), vec3(1, 1, 1) }));
 }
 
-/* (a^p + b^p)^(1/p) for a, b >= 0, and its derivatives. */
-static double mean(double a, double b, double p, double *da, double *db)
+typedef double Power(double x, double y);
+
+/* For the way to the surface, where six digits will do: a third of the time. */
+static double rough_pow(double x, double y)
 {
-    double most = fmax(a, b), least = fmin(a, b);
+    return (double)powf((float)x, (float)y);
+}
+
+static const double ROUGH = 1e-4;              /* what is larger than this has the right sign */
+
+/* (a^p + b^p)^(1/p) for a, b >= 0, and its derivatives. */
+static inline double mean(Power *power, double a, double b, Exponent e, double *da, double *db)
+{
+    double most = greater(a, b), least = lesser(a, b);
     *da = a >= b;
     *db = a < b;
-    if (most == 0 || least == 0 || isinf(p))
+    if (most == 0 || least == 0 || e.p > 1e300)
         return most;
-    double r = least / most, rp = pow(r, p), k = pow(1 + rp, 1 / p), d_most = k / (1 + rp), d_least = d_most * rp / r;
+    double r = least / most, rp = r, k;
+    if (e.doublings >= 0) {
+        for (int i = 0; i < e.doublings; i++)
+            rp *= rp;
+        k = 1 + rp;
+        for (int i = 0; i < e.doublings; i++)
+            k = sqrt(k);
+    } else {
+        rp = power(r, e.p);
+        k = power(1 + rp, 1 / e.p);
+    }
+    double d_most = k / (1 + rp), d_least = d_most * rp / r;
     *da = a >= b ? d_most : d_least;
     *db = a >= b ? d_least : d_most;
     return most * k;
 }
 
-static Sample sample(const Super *s, Vec3 o, Vec3 d, double t)
+static inline Sample sample_with(Power *power, const Super *s, Vec3 o, Vec3 d, double t)
 {
     Vec3 p = add(o, scaled(d, t));
     double dx, dy, du, dz;
-    double u = mean(fabs(p.x), fabs(p.y), s->p, &dx, &dy);
-    double f = mean(u, fabs(p.z), s->q, &du, &dz);
+    double u = mean(power, fabs(p.x), fabs(p.y), s->p, &dx, &dy);
+    double f = mean(power, u, fabs(p.z), s->q, &du, &dz);
     double side_x = p.x > 0 || (p.x == 0 && d.x > 0) ? d.x : -d.x, side_y = p.y > 0 || (p.y == 0 && d.y > 0) ? d.y : -d.y,
            side_z = p.z > 0 || (p.z == 0 && d.z > 0) ? d.z : -d.z;
     return (Sample){ f - 1, du * (dx * side_x + dy * side_y) + dz * side_z };
+}
+
+static Sample sample(const Super *s, Vec3 o, Vec3 d, double t)
+{
+    return sample_with(pow, s, o, d, t);
+}
+
+static Sample rough_sample(const Super *s, Vec3 o, Vec3 d, double t)
+{
+    return sample_with(rough_pow, s, o, d, t);
+}
+
+static bool is_above(const Super *s, Vec3 o, Vec3 d, double t)
+{
+    double f = rough_sample(s, o, d, t).f;
+    return (fabs(f) > ROUGH ? f : sample(s, o, d, t).f) > 0;
+}
+
+static bool is_rising(const Super *s, Vec3 o, Vec3 d, double t)
+{
+    double slope = rough_sample(s, o, d, t).slope;
+    return (fabs(slope) > ROUGH ? slope : sample(s, o, d, t).slope) > 0;
 }
 
 /* The root between a and b, where f changes its sign: Newton's steps inside a bracket. */
@@ -101,7 +152,7 @@ static void search(const Super *s, Vec3 o, Vec3 d, const double end[2], const bo
         return;
     }
     double step = 1e-12 * (b - a);             /* slopes are those on this side of the planes */
-    bool leaving = (sample(s, o, d, a + step).slope > 0) == above[0], coming = (sample(s, o, d, b - step).slope > 0) == above[0];
+    bool leaving = is_rising(s, o, d, a + step) == above[0], coming = is_rising(s, o, d, b - step) == above[0];
     if (!leaving && coming && turning_point(s, o, d, a, b, above[0], &turn)) {
         hit_add(sink, shift + closed_in(s, o, d, a, turn, above[0]) / len, 0);
         hit_add(sink, shift + closed_in(s, o, d, turn, b, !above[0]) / len, 0);
@@ -132,14 +183,24 @@ static bool clip(Vec3 o, Vec3 d, double *in, double *out)
  * towards the surface never step over it, and turn uphill only if there is nothing to hit. */
 static bool downhill(const Super *s, Vec3 o, Vec3 d, double t, double way, double *root)
 {
-    double before = 0;
-    for (int i = 0; i < 200; i++) {
-        Sample at = sample(s, o, d, t);
-        if (at.f <= 0)
+    Sample at;
+    for (int i = 0; i < 100; i++) {
+        at = rough_sample(s, o, d, t);
+        if (at.f < 20 * ROUGH)
             break;
-        double step = -at.f / at.slope, size = fabs(step);
+        double step = -at.f / at.slope;
         if (!(step * way > 0))
             return false;
+        t += step;
+    }
+    double before = 0;
+    for (int i = 0; i < 100; i++) {
+        at = sample(s, o, d, t);
+        double step = -at.f / at.slope, size = fabs(step);
+        if (at.f > 0 && !(step * way > 0))
+            return false;
+        if (at.f == 0 || !(at.slope * way < 0))
+            break;                             /* on it, or rounding has led past the lowest point: a touch */
         t += step;
         if (size * size * size <= 1e-14 * before * before)   /* the coming step, as steps shrink as their squares */
             break;
@@ -185,7 +246,7 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     int n = 0;
     if (!clip(o, d, &cut[0], &cut[10]))
         return;
-    if (s->p >= 1 && s->q >= 1) {
+    if (s->p.p >= 1 && s->q.p >= 1) {
         convex_hits(s, o, d, cut[0], cut[10], shift, len, ray, sink);
         return;
     }
@@ -204,7 +265,7 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     cut[++n] = last;
     bool above[2] = { true, true };            /* of the surface: at the ends of the cube */
     for (int i = 0; i < n; i++) {
-        above[1] = i + 1 == n || sample(s, o, d, cut[i + 1]).f > 0;
+        above[1] = i + 1 == n || is_above(s, o, d, cut[i + 1]);
         search(s, o, d, &cut[i], above, shift, len, sink);
         above[0] = above[1];
     }
@@ -214,8 +275,8 @@ static bool inside(const void *shape, Vec3 p)
 {
     const Super *s = shape;
     double ignored[4];
-    double u = mean(fabs(p.x), fabs(p.y), s->p, &ignored[0], &ignored[1]);
-    return mean(u, fabs(p.z), s->q, &ignored[2], &ignored[3]) - 1 < 1e-10;
+    double u = mean(pow, fabs(p.x), fabs(p.y), s->p, &ignored[0], &ignored[1]);
+    return mean(pow, u, fabs(p.z), s->q, &ignored[2], &ignored[3]) - 1 < 1e-10;
 }
 
 static void surface(const void *shape, const Hit *hit, Surface *out)
@@ -223,7 +284,7 @@ static void surface(const void *shape, const Hit *hit, Surface *out)
     (void)hit;
     const Super *s = shape;
     Vec3 p = out->p;
-    double dx, dy, du, dz, u = mean(fabs(p.x), fabs(p.y), s->p, &dx, &dy), f = mean(u, fabs(p.z), s->q, &du, &dz);
+    double dx, dy, du, dz, u = mean(pow, fabs(p.x), fabs(p.y), s->p, &dx, &dy), f = mean(pow, u, fabs(p.z), s->q, &du, &dz);
     out->normal = vec3(copysign(du * dx, p.x), copysign(du * dy, p.y), copysign(dz, p.z));
     out->p = scaled(p, 1 / f);                 /* the norm is proportional to the distance */
 }
