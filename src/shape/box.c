@@ -16,15 +16,36 @@ static void parse(Parser *p, void *params)
     box->b = shape_max(a, b);
 }
 
+static bool along_axes(const Affine *place)
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            if (i != j && place->m[i][j] != 0)
+                return false;
+    return true;
+}
+
+static void build(ShapeBuild *b, Vec3 lo, Vec3 hi, const Affine *place)
+{
+    Box *out = build_data(b, sizeof *out);
+    *out = (Box){ { { lo.x, lo.y, lo.z }, { hi.x, hi.y, hi.z } } };
+    build_prim(b, out, place, shape_padded((Bounds){ lo, hi }));
+}
+
+/* Moved and stretched boxes stay boxes, so they go to the world as they are (08-shapes, section 2.2): sides that coincide
+ * there are then met at the same t, and the first object wins everywhere instead of here and there. */
 static void compile(ShapeBuild *b, const void *params)
 {
     const Params *box = params;
+    if (along_axes(&b->place)) {
+        Affine world = affine_identity();
+        Vec3 p = affine_point(&b->place, box->a), q = affine_point(&b->place, box->b);
+        build(b, shape_min(p, q), shape_max(p, q), &world);
+        return;
+    }
     double unit = shape_unit(b, fmax(max_abs(box->a), max_abs(box->b)));
-    Vec3 lo = scaled(box->a, 1 / unit), hi = scaled(box->b, 1 / unit);
-    Box *out = build_data(b, sizeof *out);
-    *out = (Box){ { { lo.x, lo.y, lo.z }, { hi.x, hi.y, hi.z } } };
     Affine place = build_place(b, unit);
-    build_prim(b, out, &place, shape_padded((Bounds){ lo, hi }));
+    build(b, scaled(box->a, 1 / unit), scaled(box->b, 1 / unit), &place);
 }
 
 static void hits(const void *shape, const Ray *ray, HitSink *sink)

@@ -19,13 +19,17 @@ static void parse(Parser *p, void *params)
         parse_fail(p, "the normal of a plane needs a length");
 }
 
+/* In the world's space, wherever it was moved (08-shapes, section 2.2): so that it meets rays at the same t as the sides of
+ * boxes that it coincides with, and the first object wins. */
 static void compile(ShapeBuild *b, const void *params)
 {
     const Params *plane = params;
-    double unit = shape_unit(b, fabs(plane->distance));
+    Vec3 on = affine_point(&b->place, scaled(plane->normal, plane->distance));
+    Vec3 across = affine_normal(&b->place, plane->normal);
     Params *out = build_data(b, sizeof *out);
-    *out = (Params){ plane->normal, plane->distance / unit };
-    Affine place = build_place(b, unit);
+    out->normal = normalized(scaled(across, 1 / build_unit(max_abs(across))));
+    out->distance = dot(out->normal, on);
+    Affine place = affine_identity();
     Bounds box = bounds_everything();
     Vec3 n = out->normal;
     for (int i = 0; i < 3; i++) {              /* along an axis: bounds the other members of an intersection */
