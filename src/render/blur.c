@@ -1,80 +1,20 @@
 /* blur.c - see blur.h. A few hexagonal grids, filled up by points of a sub-random sequence that keep apart. */
 #include "render/blur.h"
 
+#include "math/chi_square.h"
 #include "texture/texture.h"
 #include "trace/random.h"
 
 /* ---- when to stop ---- */
-
-/* Regularised lower incomplete gamma function P(a, x); series and continued fraction as in Abramowitz and Stegun, 6.5. */
-static double gamma_p(double a, double x)
-{
-    if (x <= 0)
-        return 0;
-    double scale = exp(a * log(x) - x - lgamma(a));
-    if (x < a + 1) {
-        double term = 1 / a, sum = term;
-        for (double n = a + 1; term > sum * 1e-17; n++)
-            sum += term *= x / n;
-        return sum * scale;
-    }
-    double b = x + 1 - a, c = 1e300, d = 1 / b, h = d;
-    for (int i = 1; i < 10000; i++) {
-        double an = -i * (i - a);
-        b += 2;
-        d = 1 / (an * d + b);
-        c = b + an / c;
-        double change = c * d;
-        h *= change;
-        if (fabs(change - 1) < 1e-16)
-            break;
-    }
-    return 1 - scale * h;
-}
-
-/* The share above x. `excess` is added to ln gamma(a). */
-static double share_above(double a, double x, double excess)
-{
-    double below = gamma_p(a, x);
-    return x < 1 || x < a ? 1 - below * exp(-excess) : (1 - below) * exp(-excess);
-}
-
-static double quantile(uint32_t degrees, double p, double excess)
-{
-    double a = degrees / 2.0, low = 0, high = 1;
-    while (share_above(a, high / 2, excess) > p)
-        high *= 2;
-    for (int i = 0; i < 200 && low < high; i++) {
-        double middle = (low + high) / 2;
-        if (middle <= low || middle >= high)
-            break;
-        if (share_above(a, middle / 2, excess) > p)
-            low = middle;
-        else
-            high = middle;
-    }
-    return (low + high) / 2;
-}
-
-double chi_square_quantile(uint32_t degrees, double p)
-{
-    return quantile(degrees, p, 0);
-}
-
-/* POV: its logarithm of gamma(a) is too large by this for half-integers below 13 (fitted to where it stops). */
-static double pov_quantile(uint32_t degrees, double p)
-{
-    return quantile(degrees, p, degrees % 2 == 1 && degrees < 26 ? 0.0395696 : 0);
-}
 
 static const double *thresholds(Arena *arena, uint32_t n, double confidence, double variance)
 {
     double *threshold = arena_array(arena, double, n + 1);
     if (n < 2)
         return threshold;
-    double first = variance / pov_quantile(n - 1, confidence);
+    double first = variance / chi_square_quantile_pov(n - 1, confidence);
     for (uint32_t m = 1; m <= n; m++)
-        threshold[m] = first * pov_quantile(m, confidence);
+        threshold[m] = first * chi_square_quantile_pov(m, confidence);
     return threshold;
 }
 

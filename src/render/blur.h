@@ -15,7 +15,4 @@ typedef struct Blur {
 
 const Blur *blur_new(Arena *arena, const CameraDef *def);      /* NULL: no blur */
 
-/* The quantile of the chi-square distribution with `degrees` of freedom that is exceeded with probability p. */
-double chi_square_quantile(uint32_t degrees, double p);
-
 #endif

@@ -343,8 +343,6 @@ static void complete(Parser *p, Object *o)
             o->interior = interior_with_finish(p, o->interior, t->finish);
             break;
         }
-    if (o->interior != NULL && o->interior->n_media > 0)
-        parse_blocks(p)->scene->unmodelled |= SCENE_HAS_MEDIA;
     if (o->importance == 0)
         o->importance = parse_blocks(p)->default_importance;
 }

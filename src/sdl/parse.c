@@ -87,7 +87,6 @@ static bool statement(Parser *p, Blocks *b)
     case KW_MEDIA:
         parse_skip(p);
         array_push(p->arena, &b->media, media_block(p));
-        b->scene->unmodelled |= SCENE_HAS_MEDIA;
         return true;
     default:
         if (!scene_object(p) && !globals_old_item(p) && !parse_bare_directive(p))

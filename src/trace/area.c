@@ -34,7 +34,7 @@ Vec3 area_sample_place(Tracer *t, const Light *light, Vec3 l, int u, int v)
 }
 
 typedef struct Area {
-    const Shade *s;
+    const Spot *spot;
     uint32_t light;
     Vec3 l;
     Rgb colour;
@@ -43,15 +43,15 @@ typedef struct Area {
 /* POV: a sample counts as known by its red not being negative. */
 static Rgb area_sample(const Area *a, int u, int v)
 {
-    Tracer *t = a->s->t;
+    Tracer *t = a->spot->t;
     const Light *light = &t->world->light[a->light];
     AreaSample *known = &t->area[u * light->def->size2 + v];
     if (known->stamp == t->area_stamp && known->colour.r >= 0)
         return known->colour;
     Beam beam;
     Vec3 from = add(light->location, area_sample_place(t, light, a->l, u, v));
-    light_beam(light, from, a->s->surface->p, a->colour, &beam);
-    known->colour = shadow_walk(a->s, a->light, &beam, a->colour);
+    light_beam(light, from, a->spot->p, a->colour, &beam);
+    known->colour = shadow_walk(a->spot, a->light, &beam, a->colour);
     known->stamp = t->area_stamp;
     return known->colour;
 }
@@ -73,7 +73,7 @@ static Rgb area_mean(const Area *a, int u1, int v1, int u2, int v2, int level)
     c[2] = area_sample(a, u1, v2);
     c[3] = area_sample(a, u2, v2);
     if ((u2 - u1 > 1 || v2 - v1 > 1) &&
-        (level < a->s->t->world->light[a->light].def->adaptive || corners_differ(c))) {
+        (level < a->spot->t->world->light[a->light].def->adaptive || corners_differ(c))) {
         int ul = (u1 + u2) / 2, uh = (u1 + u2 + 1) / 2, vl = (v1 + v2) / 2, vh = (v1 + v2 + 1) / 2;
         c[0] = area_mean(a, u1, v1, ul, vl, level + 1);
         c[1] = area_mean(a, uh, v1, u2, vl, level + 1);
@@ -83,10 +83,10 @@ static Rgb area_mean(const Area *a, int u1, int v1, int u2, int v2, int level)
     return rgb_scaled(rgb_add(rgb_add(c[0], c[1]), rgb_add(c[2], c[3])), 0.25f);
 }
 
-Rgb area_visible(const Shade *s, uint32_t light, Rgb colour)
+Rgb area_visible(const Spot *spot, uint32_t light, Rgb colour)
 {
-    const Light *source = &s->t->world->light[light];
-    s->t->area_stamp++;
-    Area a = { s, light, normalized(sub(source->location, s->surface->p)), colour };
+    const Light *source = &spot->t->world->light[light];
+    spot->t->area_stamp++;
+    Area a = { spot, light, normalized(sub(source->location, spot->p)), colour };
     return area_mean(&a, 0, 0, source->def->size1 - 1, source->def->size2 - 1, 0);
 }

@@ -154,17 +154,24 @@ static bool stands_behind(const Shade *s, const Layer *layer, Vec3 l, bool *lit)
 
 /* ---- the loop ---- */
 
-static Rgb shadowed(Shade *s, uint32_t index, const Beam *beam)
+Rgb light_shadowed(const Spot *spot, uint32_t index, const Beam *beam)
 {
-    const Light *light = &s->t->world->light[index];
-    int quality = s->t->tracing->quality;
+    const Light *light = &spot->t->world->light[index];
+    int quality = spot->t->tracing->quality;
     if (quality < 4 || (light->def->shadowless && light->projected_through == 0))
         return beam->colour;
-    bool remembered = index < LIGHTS_REMEMBERED && !light->grouped;
+    return light->def->area && quality >= 5 ? area_visible(spot, index, beam->colour)
+                                            : shadow_walk(spot, index, beam, beam->colour);
+}
+
+/* Shadows fall alike on all layers of a hit. */
+static Rgb shadowed(Shade *s, uint32_t index, const Beam *beam)
+{
+    bool remembered = index < LIGHTS_REMEMBERED && !s->t->world->light[index].grouped;
     if (remembered && (s->known >> index & 1))
         return s->light[index];
-    Rgb c = light->def->area && quality >= 5 ? area_visible(s, index, beam->colour)
-                                             : shadow_walk(s, index, beam, beam->colour);
+    Spot spot = { s->t, s->surface->p, s->surface, s->path->in };
+    Rgb c = light_shadowed(&spot, index, beam);
     if (remembered) {
         s->known |= 1u << index;
         s->light[index] = c;

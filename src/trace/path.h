@@ -23,6 +23,8 @@ typedef struct Bow {                           /* a rainbow made ready */
     double angle, width, arc, falloff, distance, jitter;       /* radians; arc and falloff are halves */
 } Bow;
 
+typedef struct MediaLimit { const Media *media; const double *threshold; } MediaLimit;
+
 struct Tracing {
     const World *world;
     int quality;
@@ -32,12 +34,18 @@ struct Tracing {
     double to_scene;                           /* 1 / world->unit */
     double adc_bailout;
     int max_level;
+    bool has_media;                            /* in some body */
+    MediaLimit *media_limit;    uint32_t n_media_limits;       /* of media that sample adaptively */
     const FogDef *const *fog;   uint32_t n_fog;        /* those that are on */
     Bow *bow;                   uint32_t n_bows;
     double *stream;                            /* stream A, if anything draws from it */
     uint32_t n_area_samples;                   /* of the largest area light */
     float hue[3][HUES];                        /* cumulative, red, green, blue */
 };
+
+/* Buffers of media.c: one stretch of the ray that a light reaches, or a part of one. */
+typedef struct LightSpan { double from, to; uint32_t light; } LightSpan;
+typedef struct MediaSpan { double from, to; bool lit; } MediaSpan;
 
 typedef struct AreaSample { Rgb colour; uint32_t stamp; } AreaSample;
 
@@ -48,6 +56,8 @@ struct Tracer {
     uint32_t *last_blocker;                    /* per light: prim + 1 that hid it last; 0 none */
     AreaSample *area;                          /* samples of the area light in work; valid if stamp is area_stamp */
     uint32_t area_stamp;
+    LightSpan *light_span;                     /* n_lights */
+    MediaSpan *media_span;                     /* 2 n_lights + 1 */
     int nesting;
 };
 
@@ -62,6 +72,14 @@ typedef struct Path {
     bool straight;                             /* continues its parent without a bend: not counted */
     bool alpha;                                /* the background may be seen through */
 } Path;
+
+/* A place that light reaches: on a surface, or in the air (surface NULL). */
+typedef struct Spot {
+    Tracer *t;
+    Vec3 p;
+    const Surface *surface;
+    const Interiors *in;                       /* bodies around the ray that came here */
+} Spot;
 
 /* One hit being shaded. */
 enum { LIGHTS_REMEMBERED = 24 };
@@ -116,11 +134,14 @@ bool shade_transmit(const Shade *s, const Polish *top, Rgb filter, bool filtered
 bool light_beam(const Light *light, Vec3 from, Vec3 p, Rgb colour, Beam *out);
 Rgb shade_lights(Shade *s, const Layer *layer);
 
-/* shadow.c: `colour` as it passes from the light at distance beam->d to the surface. */
-Rgb shadow_walk(const Shade *s, uint32_t light, const Beam *beam, Rgb colour);
+/* What of beam->colour gets through to the spot, from all of the light's area if it has one. */
+Rgb light_shadowed(const Spot *spot, uint32_t light, const Beam *beam);
+
+/* shadow.c: `colour` as it passes from the light at distance beam->d to the spot. */
+Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour);
 
 /* area.c */
-Rgb area_visible(const Shade *s, uint32_t light, Rgb colour);          /* mean over the samples */
+Rgb area_visible(const Spot *spot, uint32_t light, Rgb colour);          /* mean over the samples */
 Vec3 area_sample_place(Tracer *t, const Light *light, Vec3 l, int u, int v);
 
 /* interior.c */
@@ -137,6 +158,16 @@ int interiors_find(const Interiors *list, uint32_t interior);          /* place,
 bool interiors_hollow(const World *w, const Interiors *list);
 double interior_ratio(const World *w, const Interiors *list, uint32_t interior);      /* ior here / ior around, for Fresnel */
 Rgb interior_fade(const Interior *i, double depth);                    /* depth in scene units */
+
+/* setup.c: by the number of samples; NULL: no more than the least are taken. */
+const double *tracing_media_threshold(const Tracing *tracing, const Media *media);
+
+/* media.c: lengths in world units. A stretch of a ray through media; `lit_for`: the material whose lights shine there, NULL for
+ * all global ones. */
+Colour media_air(Tracer *t, const Path *path, double depth, Colour c);
+Colour media_bodies(Tracer *t, const Path *path, const Material *lit_for, double depth, Colour c);
+Rgb media_dims_air(Tracer *t, Vec3 o, Vec3 d, double depth);           /* what extinction leaves of light */
+Rgb media_dims_bodies(Tracer *t, const Interiors *in, Vec3 o, Vec3 d, double depth);
 
 /* sky.c */
 Colour sky_colour(const Tracing *tracing, Vec3 d, bool alpha);

@@ -19,12 +19,12 @@ typedef struct Mersenne {                      /* MT19937 */
 void mersenne_seed(Mersenne *m, uint32_t seed);
 uint32_t mersenne_next(Mersenne *m);
 
-/* Stream A: area lights and rainbows. */
+/* Streams A (area lights and rainbows) and M (media), each read at its own place. */
 void stream_fill(double table[STREAM_SIZE]);
 
 typedef struct Streams {
     const double *table;                       /* of stream_fill */
-    uint32_t at;                               /* last entry used */
+    uint32_t at, media_at;                     /* last entries used */
     uint32_t grain;                            /* state of the generator behind crand */
 } Streams;
 
@@ -34,6 +34,12 @@ static inline double streams_uniform(Streams *s)       /* [0, 1) */
 {
     s->at = (s->at + 1) % STREAM_SIZE;
     return s->table[s->at];
+}
+
+static inline double streams_media(Streams *s)         /* [0, 1) */
+{
+    s->media_at = (s->media_at + 1) % STREAM_SIZE;
+    return s->table[s->media_at];
 }
 
 static inline double streams_crand(Streams *s)         /* [0, 1] */

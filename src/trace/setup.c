@@ -1,5 +1,6 @@
 /* setup.c - what tracing needs to know of a World, worked out once per picture. */
 #include "base/arena.h"
+#include "math/chi_square.h"
 #include "trace/path.h"
 
 /* ---- does anything map by uv? ---- */
@@ -49,6 +50,39 @@ static bool world_wants_uv(const World *w)
 
 /* ---- lights, fogs, rainbows ---- */
 
+static void add_media_limit(Arena *arena, Tracing *tracing, const Media *m)
+{
+    if (m->method == 3 || m->samples_max <= m->samples_min || tracing_media_threshold(tracing, m) != NULL)
+        return;
+    uint32_t most = (uint32_t)m->samples_max + 1;
+    double *threshold = arena_array(arena, double, most + 1);
+    double unit = (double)m->variance / chi_square_quantile_pov(most - 2, (double)m->confidence);
+    for (uint32_t n = 1; n <= most; n++)
+        threshold[n] = unit * chi_square_quantile_pov(n, (double)m->confidence);
+    tracing->media_limit[tracing->n_media_limits++] = (MediaLimit){ m, threshold };
+}
+
+static void prepare_media(Arena *arena, Tracing *tracing, const World *w)
+{
+    uint32_t n = w->scene->n_media;
+    for (uint32_t i = 0; i < w->n_interiors; i++)
+        n += w->interior[i].interior->n_media;
+    tracing->media_limit = arena_array(arena, MediaLimit, n + 1);
+    for (uint32_t i = 0; i < w->scene->n_media; i++)
+        add_media_limit(arena, tracing, w->scene->media[i]);
+    for (uint32_t i = 0; i < w->n_interiors; i++)
+        for (uint32_t k = 0; k < w->interior[i].interior->n_media; k++)
+            add_media_limit(arena, tracing, &w->interior[i].interior->media[k]);
+}
+
+const double *tracing_media_threshold(const Tracing *tracing, const Media *media)
+{
+    for (uint32_t i = 0; i < tracing->n_media_limits; i++)
+        if (tracing->media_limit[i].media == media)
+            return tracing->media_limit[i].threshold;
+    return NULL;
+}
+
 static uint32_t largest_area(const World *w)
 {
     uint32_t most = 1;
@@ -60,8 +94,18 @@ static uint32_t largest_area(const World *w)
     return most;
 }
 
+static bool has_media(const World *w)
+{
+    for (uint32_t i = 0; i < w->n_interiors; i++)
+        if (w->interior[i].interior->n_media > 0)
+            return true;
+    return false;
+}
+
 static bool wants_stream(const World *w, const Tracing *tracing)
 {
+    if (tracing->has_media || w->scene->n_media > 0)
+        return true;
     for (uint32_t i = 0; i < w->n_lights; i++)
         if (w->light[i].def->area && w->light[i].def->jitter)
             return true;
@@ -112,7 +156,9 @@ const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha
     tracing->adc_bailout = w->globals.adc_bailout;
     tracing->max_level = w->globals.max_trace_level < 1 ? 1 : w->globals.max_trace_level;
     tracing->n_area_samples = largest_area(w);
+    tracing->has_media = quality >= 9 && has_media(w);
     prepare_air(arena, tracing, w->scene);
+    prepare_media(arena, tracing, w);
     if (wants_stream(w, tracing)) {
         tracing->stream = arena_array(arena, double, STREAM_SIZE);
         stream_fill(tracing->stream);
@@ -128,6 +174,8 @@ Tracer *tracer_new(Arena *arena, const Tracing *tracing)
     t->world = tracing->world;
     t->last_blocker = arena_array(arena, uint32_t, t->world->n_lights + 1);
     t->area = arena_array(arena, AreaSample, tracing->n_area_samples);
+    t->light_span = arena_array(arena, LightSpan, t->world->n_lights + 1);
+    t->media_span = arena_array(arena, MediaSpan, 2 * (size_t)t->world->n_lights + 1);
     tracer_start_tile(t, 0);
     return t;
 }

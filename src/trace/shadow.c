@@ -7,6 +7,9 @@
 
 #include "trace/path.h"
 
+/* A place in the air may lie on the wall of the body whose media are sampled: the light is not to pass that wall. */
+static const double AIR_START = 0x1p-28;
+
 /* What lies within a few roundings of the light does not hide it. */
 static const double LIGHT_END = 1 - 0x1p-36;
 
@@ -84,18 +87,16 @@ static void pass_leaf(void *user, const TextureLeaf *leaf)
     veil->sum = rgb_add(veil->sum, rgb_scaled(pass, leaf->weight * veil->weight));
 }
 
-static Rgb surface_passes(const Shade *s, const Ray *ray, const Hit *hit, Surface *surface)
+static Rgb surface_passes(Tracer *t, const Ray *ray, const Hit *hit, Surface *surface)
 {
-    Tracer *t = s->t;
     const World *w = t->world;
     const Material *m = &w->material[w->prim[hit->prim].material];
     world_surface(w, ray, hit, t->tracing->wants_uv, surface);
     Veil veil = { .t = t, .surface = surface, .l = ray->d, .caustics = (double)w->interior[m->interior].interior->caustics };
-    veil.at = s->at;
-    veil.at.point = scaled(surface->p, t->tracing->to_scene);
-    veil.at.ray = ray->d;
-    veil.at.normal = surface->normal;
-    veil.at.uv = surface->uv;
+    veil.at = (TextureContext){ .point = scaled(surface->p, t->tracing->to_scene), .ray = ray->d, .normal = surface->normal,
+                                .uv = surface->uv, .hit = true, .quality = t->tracing->quality,
+                                .number_of_waves = w->globals.number_of_waves,
+                                .noise_generator = w->globals.noise_generator };
     Vec3 p = m->flags & MATERIAL_UV ? vec3(surface->uv.u, surface->uv.v, 0) : veil.at.point;
     uint32_t texture = m->texture;
     if (surface->back && (m->flags & MATERIAL_HAS_INTERIOR_TEXTURE))
@@ -112,35 +113,41 @@ static Rgb surface_passes(const Shade *s, const Ray *ray, const Hit *hit, Surfac
 /* ---- the walk ---- */
 
 typedef struct Walk {
-    const Shade *s;
+    Tracer *t;
     Ray ray;
     Interiors in;
     double done;                               /* how far it has come */
     double clear;                              /* surfaces up to here coincide with the last one */
-    bool in_air;                               /* fog dims this light */
+    bool in_air;                               /* fog and media of the air dim this light */
     Rgb colour;
 } Walk;
 
-static void dim_by_fog(Walk *walk, double to)
+static void dim_by_air(Walk *walk, double to)
 {
-    if (!walk->in_air || !interiors_hollow(walk->s->t->world, &walk->in))
+    if (!walk->in_air)
         return;
-    FogPass pass = fog_pass(walk->s->t->tracing, ray_at(&walk->ray, walk->done), walk->ray.d, to - walk->done);
+    if (walk->t->world->scene->n_media > 0)
+        walk->colour = rgb_mul(walk->colour, media_dims_air(walk->t, ray_at(&walk->ray, walk->done), walk->ray.d, to - walk->done));
+    if (walk->t->tracing->n_fog == 0 || !interiors_hollow(walk->t->world, &walk->in))
+        return;
+    FogPass pass = fog_pass(walk->t->tracing, ray_at(&walk->ray, walk->done), walk->ray.d, to - walk->done);
     walk->colour = rgb_mul(walk->colour, pass.factor);
 }
 
 static void pass_surface(Walk *walk, const Hit *hit)
 {
-    Tracer *t = walk->s->t;
+    Tracer *t = walk->t;
     const World *w = t->world;
     Surface surface;
-    walk->colour = rgb_mul(walk->colour, surface_passes(walk->s, &walk->ray, hit, &surface));
+    walk->colour = rgb_mul(walk->colour, surface_passes(t, &walk->ray, hit, &surface));
     uint32_t interior = w->material[w->prim[hit->prim].material].interior;
     const Interior *body = w->interior[interior].interior;
     int place = interiors_find(&walk->in, interior);
     if (place >= 0 && body->fade_power > 0 && body->fade_distance != 0)
         walk->colour = rgb_mul(walk->colour, interior_fade(body, (hit->t - walk->done) * t->tracing->to_scene));
-    dim_by_fog(walk, hit->t);
+    walk->colour = rgb_mul(walk->colour, media_dims_bodies(t, &walk->in, ray_at(&walk->ray, walk->done), walk->ray.d,
+                                                           hit->t - walk->done));
+    dim_by_air(walk, hit->t);
     if (place >= 0)
         interiors_remove(&walk->in, (uint32_t)place);
     else
@@ -164,7 +171,7 @@ static bool still_hidden(Tracer *t, uint32_t light, const Ray *ray)
 
 static Rgb walk_veils(Walk *walk, uint32_t light)
 {
-    Tracer *t = walk->s->t;
+    Tracer *t = walk->t;
     Veils veils;                               /* not cleared: its hits are many */
     veils.world = t->world;
     do {
@@ -186,19 +193,22 @@ static Rgb walk_veils(Walk *walk, uint32_t light)
         if (veils.overflowed)
             walk->ray.t_min = veils.hit[veils.n - 1].t;
     } while (veils.overflowed);
-    dim_by_fog(walk, walk->ray.t_max);
+    dim_by_air(walk, walk->ray.t_max);
     return walk->colour;
 }
 
-Rgb shadow_walk(const Shade *s, uint32_t light, const Beam *beam, Rgb colour)
+Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour)
 {
-    Tracer *t = s->t;
+    Tracer *t = spot->t;
     const Light *source = &t->world->light[light];
     Walk walk;
-    walk.s = s;
+    walk.t = t;
     walk.colour = colour;
     walk.done = walk.clear = 0;
-    walk.ray = (Ray){ surface_offset(s->surface, beam->l), beam->l, 0, beam->d * LIGHT_END };
+    if (spot->surface != NULL)
+        walk.ray = (Ray){ surface_offset(spot->surface, beam->l), beam->l, 0, beam->d * LIGHT_END };
+    else
+        walk.ray = (Ray){ spot->p, beam->l, max_abs(spot->p) * AIR_START, beam->d * LIGHT_END };
     if (source->projected_through != 0) {
         Hit hit;
         if (!item_nearest(t->world, source->projected_through - 1, &walk.ray, &hit))
@@ -209,8 +219,8 @@ Rgb shadow_walk(const Shade *s, uint32_t light, const Beam *beam, Rgb colour)
     }
     if (still_hidden(t, light, &walk.ray))
         return rgb_grey(0);
-    interiors_copy(&walk.in, s->path->in);
-    walk.in_air = t->tracing->quality >= 9 && t->tracing->n_fog > 0 && source->def->media_attenuation &&
-                  source->def->media_interaction;
+    interiors_copy(&walk.in, spot->in);
+    walk.in_air = t->tracing->quality >= 9 && t->tracing->n_fog + t->world->scene->n_media > 0 &&
+                  source->def->media_attenuation && source->def->media_interaction;
     return walk_veils(&walk, light);
 }

@@ -7,10 +7,13 @@ static const Colour BLACK = { 0, 0, 0, 0, 0 };         /* opaque */
 static Colour through_air(Tracer *t, const Path *path, double depth, Colour c)
 {
     const Tracing *tracing = t->tracing;
-    if (tracing->quality < 9 || tracing->n_fog + tracing->n_bows == 0 || !interiors_hollow(t->world, path->in))
+    uint32_t n_media = t->world->scene->n_media;
+    if (tracing->quality < 9 || tracing->n_fog + tracing->n_bows + n_media == 0 || !interiors_hollow(t->world, path->in))
         return c;
     if (tracing->n_bows > 0)
         c = rainbow_apply(t, path->d, depth, c);
+    if (n_media > 0)
+        c = media_air(t, path, depth, c);
     if (tracing->n_fog > 0)
         c = fog_apply(tracing, path->o, path->d, depth, c);
     return c;

@@ -12,15 +12,6 @@ static CameraDef camera_of(int samples)
     return (CameraDef){ .aperture = 0.5, .blur_samples = samples, .confidence = 0.9, .variance = 1e-4 };
 }
 
-static void quantiles_are_those_of_the_tables(void **state)
-{
-    (void)state;
-    assert_true(fabs(chi_square_quantile(1, 0.05) - 3.841459) < 1e-6);
-    assert_true(fabs(chi_square_quantile(6, 0.9) - 2.204131) < 1e-6);
-    assert_true(fabs(chi_square_quantile(10, 0.5) - 9.341818) < 1e-6);
-    assert_true(fabs(chi_square_quantile(100, 0.95) - 77.929465) < 1e-5);
-}
-
 static void thresholds_are_those_of_the_reference(void **state)
 {
     (void)state;
@@ -88,7 +79,6 @@ static void no_aperture_is_no_blur(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quantiles_are_those_of_the_tables),
         cmocka_unit_test(thresholds_are_those_of_the_reference),
         cmocka_unit_test(ten_samples_fill_up_the_grid_of_seven),
         cmocka_unit_test(places_lie_within_the_aperture_and_balance),

@@ -360,7 +360,7 @@ static void interiors_and_media_have_their_defaults(void **state)
     assert_int_equal(m->n_density, 2);
     assert_int_equal(m->density[0]->pattern->chain.n, 1);
     assert_int_equal(s->scene.n_media, 1);
-    assert_true(s->scene.unmodelled & SCENE_HAS_MEDIA);
+    assert_int_equal(s->scene.unmodelled, 0);
     parsed_free(s);
     s = good("#version 3.1;\nmedia { }");
     assert_true(s->scene.media[0]->intervals == 10 && s->scene.media[0]->samples_max == 1 && s->scene.media[0]->method == 1);
