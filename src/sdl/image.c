@@ -95,20 +95,30 @@ static const Image *function_image(Parser *p)
     int channels = colour ? 4 : 1;
     uint16_t *samples = arena_array(p->arena, uint16_t, (size_t)w * (size_t)h * (size_t)channels);
     uint16_t *out = samples;
-    for (int y = 0; y < h; y++)
+    double *row = arena_array(p->arena, double, 4 * (size_t)w);
+    const double *const arguments[] = { row, row + w, row + 2 * w };
+    double *value = row + 3 * w;
+    for (int x = 0; x < w; x++)
+        row[x] = w > 1 ? (double)x / (w - 1) : 0;
+    for (int y = 0; y < h; y++) {
+        at[1] = h > 1 ? (double)y / (h - 1) : 0;
+        for (int x = 0; x < w; x++)
+            row[w + x] = at[1];
+        if (!colour)
+            func_eval(f, arguments, value, (uint32_t)w);
         for (int x = 0; x < w; x++) {
-            at[0] = w > 1 ? (double)x / (w - 1) : 0;
-            at[1] = h > 1 ? (double)y / (h - 1) : 0;
             if (!colour) {
-                *out++ = sample(func_call(f, at));
+                *out++ = sample(value[x]);
                 continue;
             }
+            at[0] = row[x];
             func_call_vector(f, at, v);
             *out++ = sample(v[0]);
             *out++ = sample(v[1]);
             *out++ = sample(v[2]);
             *out++ = sample(1 - v[4]);
         }
+    }
     return image_of_samples(p->arena, w, h, channels, samples);
 }
 
