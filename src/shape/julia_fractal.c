@@ -167,13 +167,39 @@ static void compile(ShapeBuild *b, const void *params)
 
 static double norm2(Vec4 a) { return a.x * a.x + a.y * a.y + a.z * a.z + a.t * a.t; }
 
-static Vec4 quaternion_times(Vec4 a, Vec4 b)
+static Vec4 start_of(const Julia *j, Vec3 p)
 {
-    return (Vec4){ a.x * b.x - a.y * b.y - a.z * b.z - a.t * b.t, a.x * b.y + a.y * b.x + a.z * b.t - a.t * b.z,
-                   a.x * b.z - a.y * b.t + a.z * b.x + a.t * b.y, a.x * b.t + a.y * b.z - a.z * b.y + a.t * b.x };
+    const Params *q = &j->p;
+    double w = (q->slice_distance - (q->slice.x * p.x + q->slice.y * p.y + q->slice.z * p.z)) / q->slice.t;
+    return (Vec4){ p.x, p.y, p.z, w };
 }
 
-/* Two complex numbers on which everything hypercomplex acts alike. */
+/* s + v to s^2 - |v|^2 + 2 s v, or to s^3 - 3 s |v|^2 + (3 s^2 - |v|^2) v: a power stays in the plane of 1 and v. */
+static Vec4 quaternion_next(const Julia *j, Vec4 z)
+{
+    Vec4 c = j->p.c;
+    double ss = z.x * z.x, vv = z.y * z.y + z.z * z.z + z.t * z.t, real = ss - vv, f = 2 * z.x;
+    if (j->p.cube) {
+        real = z.x * (ss - 3 * vv);
+        f = 3 * ss - vv;
+    }
+    return (Vec4){ real + c.x, f * z.y + c.y, f * z.z + c.z, f * z.t + c.t };
+}
+
+/* How many of n steps before |z|^2 exceeds the limit. *product: of |z|^2 along the orbit. */
+static int quaternion_orbit(const Julia *j, Vec4 z, double *norm, double *product)
+{
+    int k = 0, n = j->p.n;
+    double all = 1;
+    for (; k < n && (*norm = norm2(z)) <= j->escape; k++) {
+        all *= *norm;
+        z = quaternion_next(j, z);
+    }
+    *product = all;
+    return k;
+}
+
+/* Two complex numbers on which everything hypercomplex acts alike: (x - w, y + z) and (x + w, y - z). */
 typedef struct { Complex a, b; } Pair;
 
 static Pair pair_of(Vec4 v)
@@ -193,108 +219,74 @@ static Complex times(Complex a, Complex b)
     return complex_of(creal(a) * creal(b) - cimag(a) * cimag(b), creal(a) * cimag(b) + cimag(a) * creal(b));
 }
 
-static Vec4 hyper_times(Vec4 a, Vec4 b)
+static Pair pair_times(Pair p, Pair q)
 {
-    Pair p = pair_of(a), q = pair_of(b);
-    return of_pair((Pair){ times(p.a, q.a), times(p.b, q.b) });
+    return (Pair){ times(p.a, q.a), times(p.b, q.b) };
+}
+
+static double pair_norm2(Pair p)
+{
+    return 0.5 * (creal(p.a) * creal(p.a) + cimag(p.a) * cimag(p.a) + creal(p.b) * creal(p.b) + cimag(p.b) * cimag(p.b));
+}
+
+/* f(z), without the c. */
+static Pair mapped(const Julia *j, Pair z)
+{
+    Map *map = j->p.map;
+    return map == NULL ? pair_times(z, z) : (Pair){ map(z.a, j->p.exponent), map(z.b, j->p.exponent) };
 }
 
 /* What the orbit's normal takes for the derivative at z, up to a factor. POV: the value itself, but for square and reciprocal. */
-static Vec4 slope_like(const Julia *j, Vec4 z, Vec4 f)
+static Pair slope_like(const Julia *j, Pair z, Pair f)
 {
     if (j->p.map == map_reciprocal) {
-        Vec4 s = hyper_times(f, f);
-        return (Vec4){ -s.x, -s.y, -s.z, -s.t };
+        Pair s = pair_times(f, f);
+        return (Pair){ -s.a, -s.b };
     }
     return j->p.map == NULL ? z : f;
 }
 
-/* f(z), without the c. */
-static Vec4 mapped(const Julia *j, Vec4 z)
+/* As quaternion_orbit. *z becomes the last point, *product that of the slopes. */
+static int hyper_orbit(const Julia *j, Pair *z, double *norm, Pair *product)
 {
-    const Params *p = &j->p;
-    if (p->hypercomplex) {
-        Pair q = pair_of(z);
-        if (p->map == NULL)
-            q = (Pair){ times(q.a, q.a), times(q.b, q.b) };
-        else
-            q = (Pair){ p->map(q.a, p->exponent), p->map(q.b, p->exponent) };
-        return of_pair(q);
+    Pair c = pair_of(j->p.c);
+    int k = 0, n = j->p.n;
+    *product = (Pair){ 1, 1 };
+    for (; k < n && (*norm = pair_norm2(*z)) <= j->escape; k++) {
+        Pair f = mapped(j, *z);
+        *product = k == 0 ? *z : pair_times(*product, slope_like(j, *z, f));
+        *z = (Pair){ f.a + c.a, f.b + c.b };
     }
-    Vec4 f = { z.x * z.x - z.y * z.y - z.z * z.z - z.t * z.t, 2 * z.x * z.y, 2 * z.x * z.z, 2 * z.x * z.t };
-    return p->cube ? quaternion_times(f, z) : f;
-}
-
-static Vec4 shifted(const Julia *j, Vec4 f)
-{
-    Vec4 c = j->p.c;
-    return (Vec4){ f.x + c.x, f.y + c.y, f.z + c.z, f.t + c.t };
-}
-
-static Vec4 next(const Julia *j, Vec4 z)
-{
-    return shifted(j, mapped(j, z));
-}
-
-static Vec4 start_of(const Julia *j, Vec3 p)
-{
-    const Params *q = &j->p;
-    double w = (q->slice_distance - (q->slice.x * p.x + q->slice.y * p.y + q->slice.z * p.z)) / q->slice.t;
-    return (Vec4){ p.x, p.y, p.z, w };
+    return k;
 }
 
 /* POV: for all functions but the square and the reciprocal the plain test, and so the normal, takes y for z as well. */
-static Vec4 plain_start(const Julia *j, Vec3 p)
+static Pair plain_start(const Julia *j, Vec3 p)
 {
-    bool odd = j->p.hypercomplex && j->p.map != NULL && j->p.map != map_reciprocal;
-    return start_of(j, odd ? vec3(p.x, p.y, p.y) : p);
-}
-
-/* Up to n steps of a quaternion orbit: how many before |z|^2 exceeds the limit. *product: of |z|^2 along it. */
-static int quaternion_orbit(const Julia *j, Vec4 *orbit, double *norm, double *product)
-{
-    Vec4 z = *orbit, c = j->p.c;
-    int k = 0, n = j->p.n;
-    double all = 1;
-    if (j->p.cube) {
-        for (; k < n && (*norm = norm2(z)) <= j->escape; k++) {
-            all *= *norm;
-            z = next(j, z);
-        }
-    } else {
-        for (; k < n; k++) {
-            double xx = z.x * z.x, yy = z.y * z.y + z.z * z.z + z.t * z.t, x2 = 2 * z.x;
-            *norm = xx + yy;
-            if (!(*norm <= j->escape))
-                break;
-            all *= *norm;
-            z = (Vec4){ xx - yy + c.x, x2 * z.y + c.y, x2 * z.z + c.z, x2 * z.t + c.t };
-        }
-    }
-    *orbit = z;
-    *product = all;
-    return k;
+    bool odd = j->p.map != NULL && j->p.map != map_reciprocal;
+    return pair_of(start_of(j, odd ? vec3(p.x, p.y, p.y) : p));
 }
 
 static bool holds(const Julia *j, Vec3 p)
 {
-    Vec4 z = plain_start(j, p);
-    double norm, product;
+    double norm, size;
     if (!j->p.hypercomplex)
-        return quaternion_orbit(j, &z, &norm, &product) == j->p.n;
-    for (int i = 0; i < j->p.n; i++) {
-        if (!(norm2(z) <= j->escape))
+        return quaternion_orbit(j, start_of(j, p), &norm, &size) == j->p.n;
+    Pair z = plain_start(j, p), c = pair_of(j->p.c);
+    for (int k = 0; k < j->p.n; k++) {
+        if (!(pair_norm2(z) <= j->escape))
             return false;
-        z = next(j, z);
+        Pair f = mapped(j, z);
+        z = (Pair){ f.a + c.a, f.b + c.b };
     }
     return true;
 }
 
 /* The gradient of |z_k|^2 / 2 along the orbit from z0, as the reference has it. */
-static Vec3 hyper_gradient(const Julia *j, Vec4 product, Vec4 last, int k)
+static Vec3 hyper_gradient(const Julia *j, Pair product, Pair last, int k)
 {
     double f = j->p.map == NULL ? ldexp(1, k) : 1;
-    Vec4 m = product, z = last;
+    Vec4 m = of_pair(product), z = of_pair(last);
     return scaled(vec3(m.x * z.x + m.y * z.y + m.z * z.z + m.t * z.t, -m.y * z.x + m.x * z.y - m.t * z.z + m.z * z.t,
                        -m.z * z.x - m.t * z.y + m.x * z.z + m.y * z.t), f);
 }
@@ -302,13 +294,14 @@ static Vec3 hyper_gradient(const Julia *j, Vec4 product, Vec4 last, int k)
 /* Is p inside? If not, `step` is what the ray may go on by. */
 static bool quaternion_step(const Julia *j, Vec3 p, double *step)
 {
-    Vec4 z = start_of(j, p);
     double norm = 0, product;
-    int k = quaternion_orbit(j, &z, &norm, &product);
+    int k = quaternion_orbit(j, start_of(j, p), &norm, &product);
     *step = j->step;
     if (k == j->p.n)
         return true;
-    double estimate = j->p.cube ? log(norm) / (pow(3, k + 1) * sqrt(product)) : ldexp(log(norm) / sqrt(product), -k - 1);
+    double estimate = log(norm) / sqrt(product);
+    for (int i = 0; i <= k; i++)
+        estimate *= j->p.cube ? 1 / 3.0 : 0.5;
     if (estimate > *step && isfinite(estimate))
         *step = estimate;
     return false;
@@ -316,18 +309,10 @@ static bool quaternion_step(const Julia *j, Vec3 p, double *step)
 
 static bool hyper_step(const Julia *j, Vec3 p, Vec3 d, double *step)
 {
-    Vec4 z = start_of(j, p), product = { 1, 0, 0, 0 };
+    Pair z = pair_of(start_of(j, p)), product;
     double n = 0;
-    int k = 0;
+    int k = hyper_orbit(j, &z, &n, &product);
     *step = j->step;
-    for (; k < j->p.n; k++) {
-        n = norm2(z);
-        if (!(n <= j->escape))
-            break;
-        Vec4 f = mapped(j, z);
-        product = k == 0 ? z : hyper_times(product, slope_like(j, z, f));
-        z = shifted(j, f);
-    }
     if (k == j->p.n)
         return true;
     double slope = dot(hyper_gradient(j, product, z, k), d);
@@ -397,6 +382,12 @@ static bool inside(const void *shape, Vec3 p)
 
 /* ---- at a point ---- */
 
+static Vec4 quaternion_times(Vec4 a, Vec4 b)
+{
+    return (Vec4){ a.x * b.x - a.y * b.y - a.z * b.z - a.t * b.t, a.x * b.y + a.y * b.x + a.z * b.t - a.t * b.z,
+                   a.x * b.z - a.y * b.t + a.z * b.x + a.t * b.y, a.x * b.t + a.y * b.z - a.z * b.y + a.t * b.x };
+}
+
 /* z_n and the derivatives of z_n by x, y and z, one quaternion each: d(z^2) = dz z + z dz. */
 static Vec3 quaternion_normal(const Julia *j, Vec3 p)
 {
@@ -413,7 +404,7 @@ static Vec3 quaternion_normal(const Julia *j, Vec3 p)
             }
             d[k] = square;
         }
-        z = next(j, z);
+        z = quaternion_next(j, z);
     }
     double n[3];
     for (int k = 0; k < 3; k++)
@@ -421,14 +412,14 @@ static Vec3 quaternion_normal(const Julia *j, Vec3 p)
     return vec3(n[0], n[1], n[2]);
 }
 
+/* All steps, also where the orbit would be lost at the last. */
 static Vec3 hyper_normal(const Julia *j, Vec3 p)
 {
-    Vec4 z = plain_start(j, p), product = { 1, 0, 0, 0 };
-    for (int i = 0; i < j->p.n; i++) {
-        Vec4 f = mapped(j, z);
-        product = i == 0 ? z : hyper_times(product, slope_like(j, z, f));
-        z = shifted(j, f);
-    }
+    Julia lax = *j;
+    lax.escape = INFINITY;
+    Pair z = plain_start(j, p), product;
+    double norm;
+    hyper_orbit(&lax, &z, &norm, &product);
     return hyper_gradient(j, product, z, 0);
 }
 
