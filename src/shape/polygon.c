@@ -6,10 +6,14 @@
 
 typedef struct { Vec3 *point; uint32_t n; } Params;
 
+typedef struct { double x0, y0, x1, y1; } Edge;
+
 typedef struct Polygon {
     Vec3 origin, u, v, normal;                 /* unit vectors */
-    uint32_t n;
-    struct { double x0, y0, x1, y1; } edge[];
+    const Edge *edge;                          /* by strips of equal height: those of strip i are first[i] to first[i + 1] */
+    const uint32_t *first;
+    uint32_t n_strips;
+    double low, per_height;                    /* strip = (y - low) * per_height */
 } Polygon;
 
 static const double SAME = 1e-10;              /* relative to the size of the polygon */
@@ -61,37 +65,66 @@ static bool find_plane(const Vec3 *p, uint32_t n, double size, Polygon *out)
     return true;
 }
 
+static int strip_of(const Polygon *g, double y)
+{
+    double i = (y - g->low) * g->per_height;
+    return i >= 0 ? i < g->n_strips ? (int)i : (int)g->n_strips - 1 : 0;
+}
+
+/* Every edge goes to all strips that it touches: about twice as many as there are edges, when they are short. */
+static void sort_into_strips(ShapeBuild *b, Polygon *g, const Edge *edge, uint32_t n)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (uint32_t i = 0; i < n; i++) {
+        low = fmin(low, fmin(edge[i].y0, edge[i].y1));
+        high = fmax(high, fmax(edge[i].y0, edge[i].y1));
+    }
+    g->n_strips = n < 16 ? 1 : n < 4096 ? n / 4 : 1024;
+    g->low = low;
+    g->per_height = high > low ? g->n_strips / (high - low) : 0;
+    uint32_t *first = build_data(b, (g->n_strips + (size_t)2) * sizeof *first);
+    for (uint32_t i = 0; i < n; i++)
+        for (int s = strip_of(g, fmin(edge[i].y0, edge[i].y1)); s <= strip_of(g, fmax(edge[i].y0, edge[i].y1)); s++)
+            first[s + 2]++;
+    for (uint32_t s = 0; s < g->n_strips; s++)
+        first[s + 2] += first[s + 1];
+    Edge *sorted = build_data(b, first[g->n_strips + 1] * sizeof *sorted);
+    for (uint32_t i = 0; i < n; i++)
+        for (int s = strip_of(g, fmin(edge[i].y0, edge[i].y1)); s <= strip_of(g, fmax(edge[i].y0, edge[i].y1)); s++)
+            sorted[first[s + 1]++] = edge[i];
+    g->first = first;
+    g->edge = sorted;
+}
+
+/* The edges of all rings, in the frame of the plane; returns how many. */
+static uint32_t find_edges(const Polygon *g, const Vec3 *p, uint32_t n, double size, Edge *edge)
+{
+    uint32_t n_edges = 0, first = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        bool closes = i > first && same(p[i], p[first], size), open = i + 1 == n && !closes;
+        for (int k = 0; k < (open ? 2 : 1) && i > first; k++) {        /* a ring left open by the author gets its last edge */
+            Vec3 a = sub(p[k ? i : i - 1], g->origin), z = sub(p[k || closes ? first : i], g->origin);
+            edge[n_edges++] = (Edge){ dot(a, g->u), dot(a, g->v), dot(z, g->u), dot(z, g->v) };
+        }
+        if (closes)
+            first = i + 1;
+    }
+    return n_edges;
+}
+
 static void compile(ShapeBuild *b, const void *params)
 {
     const Params *polygon = params;
     Bounds box = bounds_of_points(polygon->point, polygon->n);
     double unit = shape_unit(b, fmax(max_abs(box.lo), max_abs(box.hi))), size = max_abs(sub(box.hi, box.lo)) / unit;
-    Polygon *out = build_data(b, sizeof *out + (polygon->n + (size_t)1) * 2 * sizeof out->edge[0]);
+    Polygon *out = build_data(b, sizeof *out);
     Vec3 *p = build_data(b, polygon->n * sizeof *p);
     for (uint32_t i = 0; i < polygon->n; i++)
         p[i] = scaled(polygon->point[i], 1 / unit);
     if (!find_plane(p, polygon->n, size, out))
         return;
-    for (uint32_t first = 0, i = 0; i < polygon->n; i++) {
-        bool closes = i > first && same(p[i], p[first], size), last = i + 1 == polygon->n;
-        uint32_t to = closes ? first : i;
-        if (i > first) {
-            Vec3 a = sub(p[i - 1], p[0]), z = sub(p[to], p[0]);
-            out->edge[out->n].x0 = dot(a, out->u);
-            out->edge[out->n].y0 = dot(a, out->v);
-            out->edge[out->n].x1 = dot(z, out->u);
-            out->edge[out->n++].y1 = dot(z, out->v);
-        }
-        if (last && !closes && i > first) {    /* left open by the author */
-            Vec3 a = sub(p[i], p[0]), z = sub(p[first], p[0]);
-            out->edge[out->n].x0 = dot(a, out->u);
-            out->edge[out->n].y0 = dot(a, out->v);
-            out->edge[out->n].x1 = dot(z, out->u);
-            out->edge[out->n++].y1 = dot(z, out->v);
-        }
-        if (closes)
-            first = i + 1;
-    }
+    Edge *edge = build_data(b, (polygon->n + (size_t)1) * sizeof *edge);
+    sort_into_strips(b, out, edge, find_edges(out, p, polygon->n, size, edge));
     Affine place = build_place(b, unit);
     Bounds own = shape_padded((Bounds){ scaled(box.lo, 1 / unit), scaled(box.hi, 1 / unit) });
     build_prim(b, out, &place, bounds_grown(own, SAME * size));
@@ -121,12 +154,12 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     Vec3 at = add(v, scaled(ray->d, t));
     double x = dot(at, g->u), y = dot(at, g->v);
     bool in = false;
-    for (uint32_t i = 0; i < g->n; i++) {
-        double x0 = g->edge[i].x0, y0 = g->edge[i].y0, x1 = g->edge[i].x1, y1 = g->edge[i].y1;
-        if ((y0 >= y) == (y1 >= y))
+    int strip = strip_of(g, y);
+    for (const Edge *e = g->edge + g->first[strip]; e < g->edge + g->first[strip + 1]; e++) {
+        if ((e->y0 >= y) == (e->y1 >= y))
             continue;
-        double side = (y1 - y) * (x0 - x1) - (x1 - x) * (y0 - y1);
-        in ^= (side >= 0) == (y1 >= y);
+        double side = (e->y1 - y) * (e->x0 - e->x1) - (e->x1 - x) * (e->y0 - e->y1);
+        in ^= (side >= 0) == (e->y1 >= y);
     }
     if (in)
         hit_add(sink, t, 0);
