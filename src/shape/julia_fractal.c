@@ -246,9 +246,39 @@ static Pair slope_like(const Julia *j, Pair z, Pair f)
     return j->p.map == NULL ? z : f;
 }
 
+/* hyper_orbit of the square, by far the commonest, in numbers that fit the registers. */
+static int square_orbit(const Julia *j, Pair *z, double *norm, Pair *product)
+{
+    Pair c = pair_of(j->p.c);
+    double ar = creal(z->a), ai = cimag(z->a), br = creal(z->b), bi = cimag(z->b), limit = 2 * j->escape, n2 = 0;
+    double pr = 1, pi = 0, qr = 1, qi = 0, cr = creal(c.a), ci = cimag(c.a), dr = creal(c.b), di = cimag(c.b);
+    int k = 0, n = j->p.n;
+    for (; k < n; k++) {
+        double aa = ar * ar, ai2 = ai * ai, bb = br * br, bi2 = bi * bi;
+        n2 = aa + ai2 + (bb + bi2);
+        if (!(n2 <= limit))
+            break;
+        double p = pr * ar - pi * ai, q = qr * br - qi * bi;
+        pi = pr * ai + pi * ar;
+        qi = qr * bi + qi * br;
+        pr = p;
+        qr = q;
+        ai = 2 * ar * ai + ci;
+        ar = aa - ai2 + cr;
+        bi = 2 * br * bi + di;
+        br = bb - bi2 + dr;
+    }
+    *norm = 0.5 * n2;
+    *z = (Pair){ complex_of(ar, ai), complex_of(br, bi) };
+    *product = (Pair){ complex_of(pr, pi), complex_of(qr, qi) };
+    return k;
+}
+
 /* As quaternion_orbit. *z becomes the last point, *product that of the slopes. */
 static int hyper_orbit(const Julia *j, Pair *z, double *norm, Pair *product)
 {
+    if (j->p.map == NULL)
+        return square_orbit(j, z, norm, product);
     Pair c = pair_of(j->p.c);
     int k = 0, n = j->p.n;
     *product = (Pair){ 1, 1 };
@@ -272,7 +302,9 @@ static bool holds(const Julia *j, Vec3 p)
     double norm, size;
     if (!j->p.hypercomplex)
         return quaternion_orbit(j, start_of(j, p), &norm, &size) == j->p.n;
-    Pair z = plain_start(j, p), c = pair_of(j->p.c);
+    Pair z = plain_start(j, p), c = pair_of(j->p.c), product;
+    if (j->p.map == NULL)
+        return square_orbit(j, &z, &norm, &product) == j->p.n;
     for (int k = 0; k < j->p.n; k++) {
         if (!(pair_norm2(z) <= j->escape))
             return false;
