@@ -69,6 +69,9 @@ static void resolve_pattern(Walk *w, const Texture *t, Vec3 p, double weight, bo
     case TEXTURE_MATERIAL_MAP:
         resolve(w, by_material_map(t, q), NULL, q, weight, false);     /* POV: does not hand no_bump_scale down */
         break;
+    case TEXTURE_UV:                           /* the point forgets the chain, normals do not */
+        resolve(w, t->map.entry[0].texture, NULL, vec3(w->at->uv.u, w->at->uv.v, 0), weight, keep_length);
+        break;
     case TEXTURE_TILES:
         resolve(w, by_tiles(t, q), NULL, q, weight, keep_length);
         break;
@@ -86,10 +89,6 @@ static void resolve(Walk *w, const Texture *t, const Affine *place, Vec3 p, doub
     if (t->kind == TEXTURE_PLAIN) {
         TextureLeaf leaf = { t, p, (float)weight, place, w->top, keep_length };
         w->visit(w->user, &leaf);
-        return;
-    }
-    if (t->kind == TEXTURE_UV) {
-        resolve(w, t->map.entry[0].texture, NULL, vec3(w->at->uv.u, w->at->uv.v, 0), weight, keep_length);
         return;
     }
     keep_length |= t->no_bump_scale;
