@@ -282,8 +282,31 @@ static const Capture *find_capture(Parser *p, uint64_t key, uint32_t *slot)
     return NULL;
 }
 
-/* Lexes on to the #end that belongs to `first`, which has been read, and links the directives. The same place of the same
- * file gives the same array again: an include that is read a thousand times is captured once. */
+/* How many tokens there are from `first`, which has been read, to its #end. */
+static uint32_t count_body(Parser *p, Lexer l, const Token *first)
+{
+    uint32_t n = 1, n_open = 1;
+    while (n_open) {
+        Token t;
+        lex_next(p, &l, &t);
+        if (t.kind == TOK_END && p->n_includes > 1 && (first->directive == KW_WHILE || first->directive == KW_FOR))
+            fail(p->diag, first->loc, "#%s loop did not end in file where it started.",
+                 first->directive == KW_FOR ? "for" : "while");
+        if (t.kind == TOK_END)
+            fail(p->diag, first->loc, "End of file reached but #end expected.");
+        n++;
+        if (t.kind != TOK_HASH)
+            continue;
+        if (cursor_opens(t.directive) && ++n_open > MAX_CONDITIONALS)
+            fail(p->diag, t.loc, "Too many nested conditionals or macros.");
+        n_open -= t.directive == KW_END;
+    }
+    return n;
+}
+
+/* Lexes on to that #end, twice: a body may be a mesh of millions of tokens, for which no array is allowed to grow by
+ * copying. Links the directives. The same place of the same file gives the same array again: an include that is read a
+ * thousand times is captured once. */
 const Capture *cursor_capture(Parser *p, Lexer *l, const Token *first)
 {
     uint64_t key = capture_key(p, l);
@@ -291,37 +314,23 @@ const Capture *cursor_capture(Parser *p, Lexer *l, const Token *first)
     const Capture *known = find_capture(p, key, &slot);
     if (known)
         return known;
-    ARRAY(Token) tokens = { 0 };
-    ArenaMark mark = arena_mark(&p->temp);
-    array_push(&p->temp, &tokens, *first);
+    uint32_t n = count_body(p, *l, first);
+    Token *tokens = arena_array(p->arena, Token, n);
+    tokens[0] = *first;
     open[n_open++] = 0;
-    while (n_open) {
-        Token t;
-        lex_next(p, l, &t);
-        if (t.kind == TOK_END && p->n_includes > 1 && (first->directive == KW_WHILE || first->directive == KW_FOR))
-            fail(p->diag, first->loc, "#%s loop did not end in file where it started.",
-                 first->directive == KW_FOR ? "for" : "while");
-        if (t.kind == TOK_END)
-            fail(p->diag, first->loc, "End of file reached but #end expected.");
-        uint32_t at = tokens.n;
-        array_push(&p->temp, &tokens, t);
-        if (t.kind != TOK_HASH)
+    for (uint32_t at = 1; at < n; at++) {
+        Token *t = &tokens[at];
+        lex_next(p, l, t);
+        if (t->kind != TOK_HASH)
             continue;
-        if (cursor_opens(t.directive)) {
-            if (n_open == MAX_CONDITIONALS)
-                fail(p->diag, t.loc, "Too many nested conditionals or macros.");
+        if (t->directive == KW_END)
+            tokens[open[--n_open]].n = at;
+        else if (cursor_branches(t->directive))
+            open[n_open - 1] = tokens[open[n_open - 1]].n = at;
+        else if (cursor_opens(t->directive))
             open[n_open++] = at;
-        } else if (t.directive == KW_END) {
-            tokens.data[open[--n_open]].n = at;
-        } else if (cursor_branches(t.directive)) {
-            tokens.data[open[n_open - 1]].n = at;
-            open[n_open - 1] = at;
-        }
     }
-    Capture c = { .key = key, .n = tokens.n, .after = *l };
-    c.token = arena_copy(p->arena, tokens.data, (size_t)tokens.n * sizeof(Token));
-    arena_rewind(&p->temp, mark);
-    array_push(p->arena, &p->capture, c);
+    array_push(p->arena, &p->capture, (Capture){ .key = key, .token = tokens, .n = n, .after = *l });
     p->capture_slot[slot] = p->capture.n;
     return &p->capture.data[p->capture.n - 1];
 }
