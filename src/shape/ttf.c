@@ -290,7 +290,7 @@ static void add_glyph(Outline *o, uint32_t glyph, const Map *map, int depth);
 
 static double f2dot14(const Ttf *t, uint64_t at) { return i16(t, at) / 16384.0; }
 
-static void add_composite(Outline *o, uint32_t glyph, uint64_t at, const Map *map, int depth)
+static void add_composite(Outline *o, uint64_t at, const Map *map, int depth)
 {
     enum { WORDS = 1, OFFSETS = 2, SCALE = 8, MORE = 32, TWO_SCALES = 64, MATRIX = 128, USE_METRICS = 512 };
     const Ttf *t = o->t;
@@ -325,7 +325,6 @@ static void add_composite(Outline *o, uint32_t glyph, uint64_t at, const Map *ma
         if (!(flags & USE_METRICS))
             o->metrics = own;
     }
-    (void)glyph;
 }
 
 static uint64_t glyph_at(const Ttf *t, uint32_t glyph, uint64_t *n)
@@ -340,13 +339,13 @@ static void add_glyph(Outline *o, uint32_t glyph, const Map *map, int depth)
 {
     uint64_t n, at = glyph_at(o->t, glyph, &n);
     o->metrics = glyph;
-    if (n < 10 || glyph >= o->t->n_glyphs || depth > MOST_DEPTH)
-        return;
+    if (n < 10 || glyph >= o->t->n_glyphs || depth > MOST_DEPTH || ++o->points > MOST_POINTS)
+        return;                                /* parts of parts of parts must end some time */
     int32_t contours = i16(o->t, at);
     if (contours >= 0)
         add_simple(o, at, (uint32_t)contours, map);
     else
-        add_composite(o, glyph, at, map, depth);
+        add_composite(o, at, map, depth);
 }
 
 /* POV: headers that are too small are widened by the points of simple glyphs. */
