@@ -80,6 +80,7 @@ static void parse(Parser *p, void *params)
 /* ---- cutting ---- */
 
 typedef struct Cut {
+    Arena arena;                               /* of leaves while they become more, and of their boxes */
     ShapeBuild *b;
     const Params *params;
     double flatness;
@@ -178,11 +179,13 @@ static bool is_sliver(Vec3 a, Vec3 b, Vec3 c)
 
 static void add_leaf(Cut *cut, const Vec3 whole[4][4], const Piece *piece)
 {
-    if (cut->n == MAX_LEAVES)
+    if (cut->n == MAX_LEAVES) {
+        arena_free(&cut->arena);
         fail(cut->b->diag, cut->b->object->loc, "this bicubic_patch is cut into more than %d pieces: use fewer steps or less flatness",
              MAX_LEAVES);
+    }
     if (cut->n == cut->capacity)
-        cut->leaf = array_grow(cut->b->arena, cut->leaf, cut->n, &cut->capacity, sizeof *cut->leaf);
+        cut->leaf = array_grow(&cut->arena, cut->leaf, cut->n, &cut->capacity, sizeof *cut->leaf);
     Leaf *leaf = &cut->leaf[cut->n++];
     const double u[4] = { piece->u0, piece->u0, piece->u1, piece->u1 }, v[4] = { piece->v0, piece->v1, piece->v1, piece->v0 };
     *leaf = (Leaf){ .at = { piece->p[0][0], piece->p[0][3], piece->p[3][3], piece->p[3][0] },
@@ -225,12 +228,17 @@ static void compile(ShapeBuild *b, const void *params)
     for (int i = 0; i < 16; i++)
         whole.p[i / 4][i % 4] = affine_point(&b->place, q->point[i / 4][i % 4]);
     Cut cut = { .b = b, .params = q, .flatness = q->flatness * b->unit };
+    arena_init(&cut.arena);
+    cut.arena.out_of_memory = b->arena->out_of_memory;
+    cut.arena.user = b->arena->user;
     cut_up(&cut, whole.p, &whole, 0);
-    Bounds *box = arena_array(b->arena, Bounds, cut.n), all = bounds_of_points(&whole.p[0][0], 16);
+    Bounds *box = arena_array(&cut.arena, Bounds, cut.n), all = bounds_of_points(&whole.p[0][0], 16);
     for (uint32_t i = 0; i < cut.n; i++)
         box[i] = bounds_of_points(cut.leaf[i].at, 4);
     Patch *out = build_data(b, sizeof *out);
-    *out = (Patch){ .ops = b->accel, .accel = b->accel->build(b->arena, box, cut.n), .leaf = cut.leaf };
+    *out = (Patch){ .ops = b->accel, .accel = b->accel->build(b->arena, box, cut.n),
+                    .leaf = arena_copy(b->arena, cut.leaf, cut.n * sizeof *cut.leaf) };
+    arena_free(&cut.arena);
     for (int i = 0; i < 4; i++)
         out->st[i] = q->st[i];
     Affine none = affine_identity();

@@ -6,7 +6,10 @@
 
 typedef struct { Vec3 p[3]; } Params;
 typedef struct { Vec3 p[3], n[3]; bool degenerate; } SmoothParams;
-typedef struct { Vec3 p[3], normal, n[3]; } Triangle;      /* n: smooth ones only */
+
+/* Scenes of very many triangles: the points stay where the parser put them. */
+typedef struct { const Vec3 *p; double per_unit, turn; } Triangle;     /* turn: -1 where the normal is the other one */
+typedef struct { Triangle t; Vec3 n[3]; } Smooth;
 
 /* (P1 - P2) x (P3 - P2), in units of the triangle's size: zero for a degenerate one. */
 static Vec3 face_normal(const Vec3 p[3])
@@ -40,22 +43,25 @@ static bool only_unit(const ShapeBuild *b)
     return true;
 }
 
-static Triangle *build(ShapeBuild *b, const Vec3 p[3])
+/* False for a degenerate one. */
+static bool build(ShapeBuild *b, const Vec3 p[3], Triangle *t)
 {
     Bounds box = bounds_of_points(p, 3);
     double unit = shape_unit(b, fmax(max_abs(box.lo), max_abs(box.hi)));
     Vec3 n = face_normal(p);
     if (max_abs(n) == 0)
-        return NULL;
-    Triangle *t = build_data(b, sizeof *t);
-    for (int i = 0; i < 3; i++)
-        t->p[i] = scaled(p[i], 1 / unit);
-    t->normal = n;
+        return false;
+    *t = (Triangle){ p, 1 / unit, 1 };
     if (!only_unit(b))
-        t->normal = scaled(n, (reordered(n) ? -1 : 1) * (determinant(&b->place) < 0 ? -1 : 1));
+        t->turn = (reordered(n) ? -1 : 1) * (determinant(&b->place) < 0 ? -1 : 1);
     Affine place = build_place(b, unit);
     build_prim(b, t, &place, shape_padded((Bounds){ scaled(box.lo, 1 / unit), scaled(box.hi, 1 / unit) }));
-    return t;
+    return true;
+}
+
+static Vec3 point(const Triangle *t, int i)
+{
+    return scaled(t->p[i], t->per_unit);
 }
 
 static void hits(const void *shape, const Ray *ray, HitSink *sink)
@@ -63,13 +69,20 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     const Triangle *t = shape;
     TriRay r = tri_ray(ray);
     TriHit hit;
-    if (tri_hit(&r, t->p[0], t->p[1], t->p[2], &hit))
+    if (tri_hit(&r, point(t, 0), point(t, 1), point(t, 2), &hit))
         hit_add_uv(sink, hit.t, 0, hit.u, hit.v);
 }
 
 static Vec3 mixed(const Vec3 v[3], const Hit *hit)
 {
     return add(scaled(v[0], 1 - hit->u - hit->v), add(scaled(v[1], hit->u), scaled(v[2], hit->v)));
+}
+
+static void set_plane(const Triangle *t, const Hit *hit, Surface *out)
+{
+    const Vec3 p[3] = { point(t, 0), point(t, 1), point(t, 2) };
+    out->normal = scaled(face_normal(p), t->turn);
+    out->p = mixed(p, hit);
 }
 
 /* triangle */
@@ -86,14 +99,12 @@ static void parse(Parser *p, void *params)
 
 static void compile(ShapeBuild *b, const void *params)
 {
-    build(b, ((const Params *)params)->p);
+    build(b, ((const Params *)params)->p, build_data(b, sizeof(Triangle)));
 }
 
 static void surface(const void *shape, const Hit *hit, Surface *out)
 {
-    const Triangle *t = shape;
-    out->normal = t->normal;
-    out->p = mixed(t->p, hit);
+    set_plane(shape, hit, out);
 }
 
 static Bounds extent_of(const Vec3 p[3], const Affine *place)
@@ -138,20 +149,21 @@ static void parse_smooth(Parser *p, void *params)
 static void compile_smooth(ShapeBuild *b, const void *params)
 {
     const SmoothParams *s = params;
-    Triangle *t = s->degenerate ? NULL : build(b, s->p);
-    if (t == NULL)
+    Smooth *out = build_data(b, sizeof *out);
+    if (s->degenerate || !build(b, s->p, &out->t))
         return;
     /* POV: transforms normalise the normals before they are mixed. */
     for (int i = 0; i < 3; i++)
-        t->n[i] = scaled(s->n[i], 1 / (length(affine_normal(&b->place, s->n[i])) * b->unit));
+        out->n[i] = scaled(s->n[i], 1 / (length(affine_normal(&b->place, s->n[i])) * b->unit));
 }
 
 static void surface_smooth(const void *shape, const Hit *hit, Surface *out)
 {
-    const Triangle *t = shape;
-    out->normal = mixed(t->n, hit);
-    out->geometric = dot(t->normal, out->normal) < 0 ? negated(t->normal) : t->normal;
-    out->p = mixed(t->p, hit);
+    const Smooth *s = shape;
+    set_plane(&s->t, hit, out);
+    Vec3 flat = out->normal;
+    out->normal = mixed(s->n, hit);
+    out->geometric = dot(flat, out->normal) < 0 ? negated(flat) : flat;
 }
 
 static Bounds extent_smooth(const void *params, const Affine *place)
