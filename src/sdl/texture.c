@@ -51,19 +51,26 @@ const Texture *texture_moved(Parser *p, const Texture *texture, const Moves *mov
     return keep(p, &t);
 }
 
-/* POV: up to version 3.1, filter in all but the lowest layer was transmit. */
-static Pigment filter_to_transmit(Parser *p, const Pigment *from)
+static void to_transmit(Colour *c)
 {
-    Pigment g = *from;
-    g.colour.t += g.colour.f;
-    g.colour.f = 0;
-    if (g.map.kind == MAP_COLOUR) {
-        MapEntry *entry = arena_copy(parse_arena(p), g.map.entry, g.map.n * sizeof *entry);
-        for (uint32_t i = 0; i < g.map.n; i++) {
-            entry[i].colour.t += entry[i].colour.f;
-            entry[i].colour.f = 0;
+    c->t += c->f;
+    c->f = 0;
+}
+
+/* POV: up to version 3.1, filter in all but the lowest layer was transmit; also in the pigments of maps. */
+static const Pigment *filter_to_transmit(Parser *p, const Pigment *from)
+{
+    Pigment *g = arena_copy(parse_arena(p), from, sizeof *from);
+    to_transmit(&g->colour);
+    if (g->map.n > 0) {
+        MapEntry *entry = arena_copy(parse_arena(p), g->map.entry, g->map.n * sizeof *entry);
+        for (uint32_t i = 0; i < g->map.n; i++) {
+            if (g->map.kind == MAP_COLOUR)
+                to_transmit(&entry[i].colour);
+            else
+                entry[i].pigment = filter_to_transmit(p, entry[i].pigment);
         }
-        g.map.entry = entry;
+        g->map.entry = entry;
     }
     return g;
 }
@@ -87,10 +94,8 @@ const Texture *texture_layered(Parser *p, const Texture *below, const Texture *a
     if (above->kind != TEXTURE_PLAIN)
         parse_fail(p, "Cannot layer a patterned texture over another.");
     Texture *t = arena_copy(parse_arena(p), above, sizeof *above);
-    if (parse_version(p) <= 310) {
-        Pigment g = filter_to_transmit(p, t->pigment);
-        t->pigment = arena_copy(parse_arena(p), &g, sizeof g);
-    }
+    if (parse_version(p) <= 310)
+        t->pigment = filter_to_transmit(p, t->pigment);
     t->below = above->below != NULL ? texture_layered(p, below, above->below) : below;
     return t;
 }
