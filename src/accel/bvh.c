@@ -10,12 +10,13 @@
 
 enum {
     N_BINS = 16,
-    LEAF_MAX = 4,                              /* a range of so many items may stay whole */
+    MANY = 1 << 15,                            /* so many items are cheap ones (triangles), and memory counts */
+    LEAF_FEW = 2, LEAF_MANY = 4,               /* a range of so many items may stay whole */
     DEPTH_BINNED = 40                          /* below it ranges are halved by count: log8(2^32) more levels at most */
 };
 
-/* Testing an item costs about this many box tests: an indirect call, and often a transform. */
-static const float ITEM_COST = 1.5f;
+/* Testing an item costs about this many box tests: an indirect call, often a transform, sometimes a set operation. */
+static const float COST_FEW = 3, COST_MANY = 1.5f;
 
 typedef struct Box { f4 lo, hi; } Box;         /* the fourth of each means nothing */
 
@@ -36,7 +37,8 @@ typedef struct Builder {
     Bvh *bvh;
     Arena *arena;
     Item *item;
-    uint32_t capacity;
+    uint32_t capacity, leaf_max;
+    float cost;
 } Builder;
 
 static Box box_none(void)
@@ -193,8 +195,8 @@ static uint32_t cut_by_area(const Builder *k, const Range *r)
     bins_fill(&bins, k, r);
     Split s = find_split(&bins, r->n);
     float area = box_area(r->box);
-    bool pays = s.axis >= 0 && area + s.cost * ITEM_COST < area * (float)r->n * ITEM_COST;
-    if (r->n <= LEAF_MAX && !pays)
+    bool pays = s.axis >= 0 && area + s.cost * k->cost < area * (float)r->n * k->cost;
+    if (r->n <= k->leaf_max && !pays)
         return 0;
     return s.axis >= 0 ? partition(k, r, &bins, &s) : r->n / 2;
 }
@@ -202,7 +204,7 @@ static uint32_t cut_by_area(const Builder *k, const Range *r)
 /* Cuts *r in two, or marks it whole. */
 static bool split(const Builder *k, Range *r, Range *other, bool binned)
 {
-    uint32_t first = r->first, n = r->n, left = binned ? cut_by_area(k, r) : n <= LEAF_MAX ? 0 : n / 2;
+    uint32_t first = r->first, n = r->n, left = binned ? cut_by_area(k, r) : n <= k->leaf_max ? 0 : n / 2;
     r->whole = left == 0;
     if (r->whole)
         return false;
@@ -255,7 +257,7 @@ static void build_node(Builder *k, uint32_t index, Range all, int depth)
             node.lo[axis][i] = lo[axis];
             node.hi[axis][i] = hi[axis];
         }
-        bool leaf = r->whole || r->n <= LEAF_MAX;
+        bool leaf = r->whole || r->n <= k->leaf_max;
         node.count[i] = leaf ? (uint8_t)r->n : 0;
         node.child[i] = leaf ? r->first : node_new(k);
     }
@@ -277,7 +279,8 @@ static void *build(Arena *a, const Bounds *boxes, uint32_t n)
     Item *item = arena_array(&scratch, Item, n);
     for (uint32_t i = 0; i < n; i++)
         item[i] = item_outward(&boxes[i], i);
-    Builder k = { .bvh = b, .arena = &scratch, .item = item };
+    Builder k = { .bvh = b, .arena = &scratch, .item = item, .leaf_max = n < MANY ? LEAF_FEW : LEAF_MANY,
+                  .cost = n < MANY ? COST_FEW : COST_MANY };
     build_node(&k, node_new(&k), range_of(&k, 0, n), 0);
     b->node = arena_copy(a, b->node, b->n_nodes * sizeof *b->node);
     for (uint32_t i = 0; i < n; i++)
