@@ -84,7 +84,7 @@ unit: $(BUILD)/whit $(TEST_BIN)
 # Everything: unit tests, command line, pictures. Ends with "N passed, N failed".
 check:
 	@tests/packages check
-	+@$(MAKE) --no-print-directory check-only
+	+@$(MAKE) --no-print-directory -s -j$$(nproc 2>/dev/null || echo 2) check-only
 
 check-only: layers unit
 	@BUILD=$(BUILD) tests/run $(BUILD) $(TEST_BIN)
@@ -95,7 +95,7 @@ layers:
 # A picture for a newcomer: installs what building needs, builds, renders, says where it is.
 demo:
 	@tests/packages demo
-	+@$(MAKE) --no-print-directory $(BUILD)/whit
+	+@$(MAKE) --no-print-directory -s -j$$(nproc 2>/dev/null || echo 2) $(BUILD)/whit
 	@$(BUILD)/whit scenes/showpiece.pov +W800 +H600 +A0.3 +O$(BUILD)/showpiece.png
 	@echo "the picture is $(CURDIR)/$(BUILD)/showpiece.png"
 
