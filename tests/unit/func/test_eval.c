@@ -155,6 +155,39 @@ static void hosts_give_components(void **state)
     arena_free(&arena);
 }
 
+static void ranges_hold_every_value(void **state)
+{
+    (void)state;
+    unsigned seed = 6;
+    int known = 0;
+    for (int tree = 0; tree < 3000; tree++) {
+        Arena arena;
+        arena_init(&arena);
+        FuncBuilder *b = func_builder(&arena, 3);
+        const Function *f = func_finish(b, random_tree(b, &seed, 5));
+        FuncRange p[3], range;
+        for (int k = 0; k < 3; k++) {
+            double x = random_number(&seed) * 3, w = tree % 2 ? fabs(random_number(&seed)) : 1e-3;
+            p[k] = (FuncRange){ x, x + w };
+        }
+        if (func_range(f, p, &range)) {
+            known++;
+            for (int i = 0; i < 30; i++) {
+                double a[3];
+                for (int k = 0; k < 3; k++) {
+                    double t = i < 2 ? i : noise_sample(&seed) / 32768.0;
+                    a[k] = fmin(p[k].lo + t * (p[k].hi - p[k].lo), p[k].hi);
+                }
+                double v = func_call(f, a);
+                if (v < range.lo || v > range.hi)
+                    fail_msg("tree %d: %.17g is not within %.17g and %.17g", tree, v, range.lo, range.hi);
+            }
+        }
+        arena_free(&arena);
+    }
+    assert_true(known > 1000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -163,6 +196,7 @@ int main(void)
         cmocka_unit_test(equal_parts_are_computed_once_and_numbers_fold),
         cmocka_unit_test(calls_give_what_the_callee_gives),
         cmocka_unit_test(hosts_give_components),
+        cmocka_unit_test(ranges_hold_every_value),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
