@@ -245,8 +245,10 @@ static Str substr_function(Parser *p, Loc loc)
     int from = int_argument(p);
     parse_comma(p);
     int n = int_argument(p);
-    if (from < 1 || n < 0 || (long long)from + n - 1 > unit_count(s))
+    if (from < 0 || n < 0 || (long long)from + n - 1 > unit_count(s))
         fail(p->diag, loc, "Illegal parameters in substr.");
+    if (from == 0)                             /* POV: nothing, without a word */
+        return str_of("");
     uint32_t i = 0;
     for (int k = 1; k < from; k++)
         unit_at(s, &i);

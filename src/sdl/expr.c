@@ -239,7 +239,9 @@ static void components(Parser *p, Num *n)
         int i = component_of(cursor_look(p));
         if (i < 0)
             parse_expected(p, "x, y, z, t, u, v or color component");
-        if (i == 5 ? n->terms < 3 : i >= n->terms)
+        for (int k = n->terms; i == 5 && k < 3; k++)
+            n->v[k] = 0;
+        if (i != 5 && i >= n->terms)
             fail(p->diag, p->token.loc, "Bad operands for period operator.");
         p->have = false;
         n->v[0] = i == 5 ? 0.297 * n->v[0] + 0.589 * n->v[1] + 0.114 * n->v[2] : n->v[i];
@@ -421,7 +423,9 @@ static void choice_rest(Parser *p, Num *out)
     if (cursor_look(p) != TOK_QUESTION)
         return;
     p->have = false;
-    bool first = truth(num_float(p, out));
+    if (out->terms > 1)
+        fail(p->diag, cursor_loc(p), "Conditional must evaluate to a float.");
+    bool first = truth(out->v[0]);
     Num a, b;
     cursor_deeper(p);
     expr_full(p, &a);

@@ -96,10 +96,6 @@ bool flow_is_defined(Parser *p)
         if (v && v->kind == VALUE_ARRAY && cursor_raw_at(p, TOK_LBRACKET, '['))
             v = array_subscript(p, v);
         defined = v && v->kind != VALUE_NONE;
-    } else if (t.kind >= N_KEYWORDS) {
-        p->token = t;
-        p->have = true;
-        parse_expected(p, "identifier");
     }
     parse_expect(p, TOK_RPAREN);
     p->suspended = was;

@@ -95,7 +95,7 @@ static const Row rows[] = {
     { "#debug str(pow(0,0),0,0)", "error: Domain error." },
     { "#debug str(atan2(0,0),0,0)", "error: Domain error in atan2!" },
     { "#debug substr(\"abc\",2,3)", "error: Illegal parameters in substr." },
-    { "#debug substr(\"abc\",0,1)", "error: Illegal parameters in substr." },
+    { "#debug substr(\"abc\",-1,1)", "error: Illegal parameters in substr." },
     { "#debug chr(-1)", "error: Value -1 cannot be used in chr(...)." },
     { "#debug str(rand(0),0,5)", "error: Illegal random number generator." },
     { "#debug datetime(0,\"\")", "error: Empty format string." },
