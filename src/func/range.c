@@ -1,6 +1,7 @@
 /* range.c - interval arithmetic over function code: where values lie while the parameters roam.
  *
- * Ranges are widened a little at each step, so that no rounding of a value can leave them. What is not known is everything. */
+ * Ranges are widened a little at each step, so that no rounding of a value can leave them. What is not known is everything, and
+ * everything alone may be NaN. */
 #include <math.h>
 
 #include "func/native.h"
@@ -17,6 +18,8 @@ static inline FuncRange widened(double lo, double hi)
 {
     return range_of(lo - fabs(lo) * 0x1p-50 - 0x1p-1000, hi + fabs(hi) * 0x1p-50 + 0x1p-1000);
 }
+
+static inline bool is_everything(FuncRange a) { return a.lo == -INFINITY && a.hi == INFINITY; }
 
 static inline FuncRange hull(FuncRange a, FuncRange b)
 {
@@ -58,20 +61,22 @@ static FuncRange growing(double (*f)(double), FuncRange a, double from, double t
     return widened(f(a.lo), f(a.hi));
 }
 
-/* Square roots of sums of squares come out a little below 0 at worst. */
+/* A sum of squares comes out a little below 0 at worst; what may really be negative gives NaN, which no range holds. */
 static FuncRange root_of(FuncRange a)
 {
-    return a.hi < 0 ? EVERYTHING : widened(a.lo > 0 ? sqrt(a.lo) : 0, sqrt(a.hi));
+    return a.lo < -0x1p-40 * a.hi - 0x1p-900 ? EVERYTHING : widened(a.lo > 0 ? sqrt(a.lo) : 0, sqrt(a.hi));
 }
 
 /* sin(x): -1..1 unless the range is within one monotone half wave. */
 static FuncRange sine_of(FuncRange a)
 {
+    if (!isfinite(a.lo) || !isfinite(a.hi))
+        return EVERYTHING;
     double turns = floor(a.lo / PI + 0.5);
     if (!(fabs(a.lo) < 1e6 && a.hi <= (turns + 0.5) * PI))
         return (FuncRange){ -1, 1 };
-    double u = sin(a.lo), v = sin(a.hi);
-    return widened(fmin(u, v), fmax(u, v));
+    double u = sin(a.lo), v = sin(a.hi), slack = 0x1p-48 * (1 + fabs(a.lo) + fabs(a.hi));      /* cosines come with a rounded shift */
+    return range_of(fmin(u, v) - slack, fmax(u, v) + slack);
 }
 
 static FuncRange compared(bool always, bool never)
@@ -89,6 +94,8 @@ static FuncRange power_of(FuncRange a, FuncRange b)
 
 static FuncRange unary_of(unsigned op, FuncRange a)
 {
+    if (is_everything(a))
+        return EVERYTHING;
     switch (op) {
     case FUNC_NEG: return (FuncRange){ -a.hi, -a.lo };
     case FUNC_ABS: return magnitude_of(a);
@@ -111,8 +118,19 @@ static FuncRange unary_of(unsigned op, FuncRange a)
     }
 }
 
+static FuncRange remainder_of(FuncRange a, FuncRange b)
+{
+    double n = fmax(fabs(b.lo), fabs(b.hi));
+    if (!isfinite(a.lo) || !isfinite(a.hi) || (b.lo <= 0 && b.hi >= 0))
+        return EVERYTHING;
+    return (FuncRange){ a.lo < 0 ? -n : 0, a.hi > 0 ? n : 0 };
+}
+
 static FuncRange binary_of(unsigned op, FuncRange a, FuncRange b)
 {
+    bool compares = op >= FUNC_EQ && op <= FUNC_OR;
+    if (!compares && (is_everything(a) || is_everything(b)))
+        return EVERYTHING;
     switch (op) {
     case FUNC_ADD: return sum_of(a, b);
     case FUNC_SUB: return difference_of(a, b);
@@ -127,10 +145,7 @@ static FuncRange binary_of(unsigned op, FuncRange a, FuncRange b)
     case FUNC_ATAN2: return (FuncRange){ -PI * (1 + 0x1p-50), PI * (1 + 0x1p-50) };
     case FUNC_MIN: return (FuncRange){ fmin(a.lo, b.lo), fmin(a.hi, b.hi) };
     case FUNC_MAX: return (FuncRange){ fmax(a.lo, b.lo), fmax(a.hi, b.hi) };
-    case FUNC_MOD: {
-        double n = fmax(fabs(b.lo), fabs(b.hi));
-        return (FuncRange){ a.lo < 0 ? -n : 0, a.hi > 0 ? n : 0 };
-    }
+    case FUNC_MOD: return remainder_of(a, b);
     default: return EVERYTHING;
     }
 }
@@ -161,7 +176,6 @@ static FuncRange call_of(const Function *f, const Instr *i, const FuncRange *r)
     return EVERYTHING;
 }
 
-/* A NaN may come where an infinity meets 0 or another; ranges that reach to infinity could hide it. */
 bool func_range(const Function *f, const FuncRange *arguments, FuncRange *out)
 {
     if (f->host != NULL) {
