@@ -91,7 +91,8 @@ static void begin(Compile *c, World *w, Arena *arena, const Registry *registry, 
     w->accel_ops = accel;
     w->unit = unit;
     static const Interior nothing = { .ior = 1, .dispersion = 1, .old_refraction = 1, .dispersion_samples = 7 };
-    array_push(c->arena, &c->place, affine_identity());
+    Affine none = affine_identity();
+    c->identity = c->last_place = arena_copy(c->arena, &none, sizeof none);
     array_push(c->arena, &c->csg, (CsgNode){ 0 });
     array_push(c->arena, &c->texture, (PlacedTexture){ 0 });
     array_push(c->arena, &c->interior, (PlacedInterior){ .interior = &nothing });
@@ -99,29 +100,39 @@ static void begin(Compile *c, World *w, Arena *arena, const Registry *registry, 
     array_push(c->arena, &c->material, (Material){ 0 });
 }
 
+static bool is_hidden(const World *w, uint32_t i)
+{
+    return (w->prim[i].flags & PRIM_HELPER) || bounds_is_empty(w->box[i]);
+}
+
 /* Prims that can be met, by box or (unbounded) always. */
 static void build_accelerator(Compile *c)
 {
     World *w = c->w;
-    Bounds *box = arena_array(c->arena, Bounds, w->n_prims);
-    w->accel_prim = arena_array(c->arena, uint32_t, w->n_prims);
-    Items unbounded = { 0 };
+    uint32_t n = 0;
     w->bounds = bounds_empty();
+    for (uint32_t i = 0; i < w->n_prims; i++)
+        if (bounds_is_finite(w->box[i]) && !is_hidden(w, i)) {
+            w->bounds = bounds_union(w->bounds, w->box[i]);
+            n++;
+        }
+    Items unbounded = { 0 };
+    Bounds *box = n == w->n_prims ? w->box : arena_array(c->arena, Bounds, n);
+    w->accel_prim = arena_array(c->arena, uint32_t, n);
     for (uint32_t i = 0; i < w->n_prims; i++) {
-        if ((w->prim[i].flags & PRIM_HELPER) || bounds_is_empty(w->box[i]))
+        if (is_hidden(w, i))
             continue;
         if (!bounds_is_finite(w->box[i])) {
             array_push(c->arena, &unbounded, i);
             continue;
         }
-        w->bounds = bounds_union(w->bounds, w->box[i]);
         box[w->n_accel_prims] = w->box[i];
         w->accel_prim[w->n_accel_prims++] = i;
     }
     w->unbounded = unbounded.data;
     w->n_unbounded = unbounded.n;
-    if (w->n_accel_prims > 0)
-        w->accel = w->accel_ops->build(c->arena, box, w->n_accel_prims);
+    if (n > 0)
+        w->accel = w->accel_ops->build(c->arena, box, n);
 }
 
 #define TAKE(field, count, array) (w->field = c->array.data, w->count = c->array.n)
@@ -134,7 +145,6 @@ static void end(Compile *c)
     csg_finish(c);
     TAKE(prim, n_prims, prim);
     w->box = c->box.data;
-    TAKE(place, n_places, place);
     TAKE(csg, n_csg, csg);
     TAKE(csg_child, n_csg_children, csg_child);
     TAKE(body, n_bodies, body);

@@ -59,10 +59,10 @@ struct Compile {
     bool geometry_only;                        /* queries: no textures, materials, lights */
     double unit;
     Affine to_world;                           /* scale by unit */
+    const Affine *identity, *last_place;       /* of prims */
 
     ARRAY(Prim) prim;
     ARRAY(Bounds) box;
-    ARRAY(Affine) place;
     ARRAY(CsgNode) csg;
     Items csg_child, body;
     ARRAY(Material) material;

@@ -45,7 +45,7 @@ bool item_holds(const Compile *c, uint32_t item, Bounds box)
         return false;
     for (int i = 0; i < 8; i++) {
         Vec3 corner = vec3(i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y, i & 4 ? box.hi.z : box.lo.z);
-        if (!prim->ops->inside(prim->data, affine_point_back(&c->place.data[prim->place], corner)))
+        if (!prim->ops->inside(prim->data, affine_point_back(prim->place, corner)))
             return false;
     }
     return true;
@@ -59,7 +59,7 @@ static Bounds cut_by_child(const Compile *c, uint32_t item, Bounds box)
     const Prim *prim = &c->prim.data[item];
     if (prim->ops->within == NULL || (prim->flags & (PRIM_INVERSE | PRIM_PATCH)) || bounds_is_empty(box))
         return box;
-    const Affine *place = &c->place.data[prim->place];
+    const Affine *place = prim->place;
     Affine back = affine_inverse(*place);
     Bounds local = prim->ops->within(prim->data, bounds_transformed(box, &back));
     if (bounds_is_empty(local))
@@ -87,7 +87,7 @@ static Bounds cut_by_planes(const Compile *c, const Items *children, Bounds box)
         if (is_node(item) || c->prim.data[item].ops->half_space == NULL)
             continue;
         const Prim *prim = &c->prim.data[item];
-        const Affine *place = &c->place.data[prim->place];
+        const Affine *place = prim->place;
         prim->ops->half_space(prim->data, &normal, &distance);
         Vec3 on = affine_point(place, scaled(normal, distance)), across = normalized(affine_normal(place, normal));
         double sign = prim->flags & PRIM_INVERSE ? -1 : 1;

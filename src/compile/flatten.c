@@ -67,20 +67,19 @@ static Bounds padded(Bounds b)
     return bounds_grown(b, room * (bounds_is_finite(b) ? size : fmax(size, 1)));
 }
 
-static uint32_t place_index(Compile *c, const Affine *place)
+static const Affine *kept_place(Compile *c, const Affine *place)
 {
     if (place->identity)
-        return 0;
-    if (c->place.n > 1 && memcmp(c->place.data[c->place.n - 1].m, place->m, sizeof place->m) == 0)
-        return c->place.n - 1;                 /* one shape of several prims */
-    array_push(c->arena, &c->place, *place);
-    return c->place.n - 1;
+        return c->identity;
+    if (memcmp(c->last_place->m, place->m, sizeof place->m) != 0)      /* else one shape of several prims */
+        c->last_place = arena_copy(c->arena, place, sizeof *place);
+    return c->last_place;
 }
 
 static void prim_add(Compile *c, const ShapeOps *ops, const void *data, const Affine *place, Bounds local)
 {
     Bounds box = bounds_transformed(local, place);
-    array_push(c->arena, &c->prim, (Prim){ .ops = ops, .data = data, .place = place_index(c, place),
+    array_push(c->arena, &c->prim, (Prim){ .ops = ops, .data = data, .place = kept_place(c, place),
                                            .material = c->shape_material, .flags = c->shape_flags });
     array_push(c->arena, &c->box, bounds_is_empty(box) ? bounds_empty() : padded(box));
 }

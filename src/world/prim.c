@@ -40,11 +40,11 @@ static bool is_node(uint32_t item)
     return (item & 0x80000000u) != 0;
 }
 
-static bool prim_inside(const World *w, const Prim *prim, Vec3 p)
+static bool prim_inside(const Prim *prim, Vec3 p)
 {
     if ((prim->flags & PRIM_PATCH) || prim->ops->inside == NULL)
         return false;                          /* POV: also when inverted */
-    return prim->ops->inside(prim->data, affine_point_back(&w->place[prim->place], p)) != ((prim->flags & PRIM_INVERSE) != 0);
+    return prim->ops->inside(prim->data, affine_point_back(prim->place, p)) != ((prim->flags & PRIM_INVERSE) != 0);
 }
 
 static bool ask_child(void *user, uint32_t i, double *t_max)
@@ -76,7 +76,7 @@ enum { NO_ITEM = 0x7fffffff };
 bool item_inside(const World *w, uint32_t item, Vec3 p)
 {
     if (!is_node(item))
-        return prim_inside(w, &w->prim[item], p);
+        return prim_inside(&w->prim[item], p);
     const CsgNode *node = &w->csg[~item];
     if (node->flags & CSG_BOUND)
         return item_inside(w, w->csg_child[node->first], p);
@@ -198,7 +198,7 @@ static void prim_test(HitSink *sink, uint32_t index)
     if ((prim->flags & sink->skip) || ((prim->flags & PRIM_BOUNDED) && !bounds_let_through(sink, prim->csg)))
         return;
     const Ray *ray = sink->ray;
-    const Affine *place = &w->place[prim->place];
+    const Affine *place = prim->place;
     sink->local.o = affine_point_back(place, ray->o);
     sink->local.d = affine_vector_back(place, ray->d);
     sink->local.t_max = sink->best.t;
@@ -292,7 +292,7 @@ static void cutaway_textures(const World *w, uint32_t item, Vec3 p, Surface *s)
 {
     if (!is_node(item)) {
         uint32_t texture = w->material[w->prim[item].material].texture;
-        if (texture != 0 && prim_inside(w, &w->prim[item], p))
+        if (texture != 0 && prim_inside(&w->prim[item], p))
             add_texture(s, texture);
         return;
     }
@@ -337,7 +337,7 @@ static double magnitude(Vec3 o, Vec3 d, double t)
 void world_surface(const World *w, const Ray *ray, const Hit *hit, bool want_uv, Surface *out)
 {
     const Prim *prim = &w->prim[hit->prim];
-    const Affine *place = &w->place[prim->place];
+    const Affine *place = prim->place;
     Vec3 o = affine_point_back(place, ray->o), d = affine_vector_back(place, ray->d);
     Vec3 local = add(o, scaled(d, hit->t));
     memset(out, 0, sizeof *out);

@@ -34,7 +34,7 @@ enum {                                         /* Prim.flags */
 typedef struct Prim {
     const ShapeOps *ops;
     const void *data;
-    uint32_t place;                            /* index in places; 0 is the identity */
+    const Affine *place;                       /* its space to the world; never NULL */
     uint32_t material;
     uint32_t csg;                              /* CsgNode this prim is a child of; 0 = none */
     uint32_t flags;
@@ -103,7 +103,6 @@ struct World {
     unsigned features;
     Prim *prim;                 uint32_t n_prims;              /* in scene order: the tie break of equal hits */
     Bounds *box;                                               /* of each prim, world, cut by its CSG ancestors */
-    Affine *place;              uint32_t n_places;
     CsgNode *csg;               uint32_t n_csg;                /* csg[0] unused */
     uint32_t *csg_child;        uint32_t n_csg_children;
     /* Top-level items that the accelerator does not find around a point: unbounded, inverted or clipped ones. */
