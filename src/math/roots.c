@@ -383,6 +383,14 @@ void roots_visit(const double *c, int n, double lo, double hi, double from, Root
             return;
 }
 
+static bool all_finite(const double *c, int n)
+{
+    double sum = 0;
+    for (int k = 0; k <= n; k++)
+        sum += c[k] * 0;                       /* 0, or NaN for good */
+    return sum == 0;
+}
+
 /* floor(log2) of half a bound of the roots (Fujiwara); needs c[n] != 0. */
 static int reach_exponent(const double *c, int n)
 {
@@ -400,7 +408,7 @@ int roots_all(const double *c, int n, double *root)
 {
     while (n > 0 && c[n] == 0)
         n--;
-    if (n < 1 || n > MAX)
+    if (n < 1 || n > MAX || !all_finite(c, n))
         return 0;
     if (n <= 4) {
         double *next = root;
@@ -442,6 +450,8 @@ void roots_visit_all(const double *c, int n, double from, RootVisit *visit, void
     while (n > 0 && c[n] == 0)
         n--;
     if (n >= 1 && n <= 4) {
+        if (!all_finite(c, n))
+            return;
         int e = reach_exponent(c, n);
         double reach = ldexp(1, e < 1000 ? e + 3 : 1003);
         small(c, n, &(Small){ -reach, reach, from, { 0, DBL_EPSILON }, visit, user });

@@ -21,7 +21,7 @@ typedef struct { Vec3 at[4]; float normal[4][3]; double u0, v0, u1, v1; bool sli
 
 typedef struct { const AccelOps *ops; const void *accel; const Leaf *leaf; Vec2 st[4]; } Patch;
 
-enum { MAX_LEAVES = 1 << 22 };
+enum { MAX_LEAVES = 1 << 20 };
 
 /* ---- parsing ---- */
 
@@ -177,13 +177,17 @@ static bool is_sliver(Vec3 a, Vec3 b, Vec3 c)
     return length2(cross(e, f)) <= 1e-10 * length2(e) * length2(f);
 }
 
+static _Noreturn void too_fine(Cut *cut)
+{
+    arena_free(&cut->arena);
+    fail(cut->b->diag, cut->b->object->loc, "this bicubic_patch is cut into more than %d pieces: use fewer steps or more flatness",
+         MAX_LEAVES);
+}
+
 static void add_leaf(Cut *cut, const Vec3 whole[4][4], const Piece *piece)
 {
-    if (cut->n == MAX_LEAVES) {
-        arena_free(&cut->arena);
-        fail(cut->b->diag, cut->b->object->loc, "this bicubic_patch is cut into more than %d pieces: use fewer steps or less flatness",
-             MAX_LEAVES);
-    }
+    if (cut->n == MAX_LEAVES)
+        too_fine(cut);
     if (cut->n == cut->capacity)
         cut->leaf = array_grow(&cut->arena, cut->leaf, cut->n, &cut->capacity, sizeof *cut->leaf);
     Leaf *leaf = &cut->leaf[cut->n++];
@@ -231,6 +235,8 @@ static void compile(ShapeBuild *b, const void *params)
     arena_init(&cut.arena);
     cut.arena.out_of_memory = b->arena->out_of_memory;
     cut.arena.user = b->arena->user;
+    if (!(cut.flatness > 0) && fmax(0, q->u_steps) + fmax(0, q->v_steps) > 20)
+        too_fine(&cut);                        /* nothing will stop it */
     cut_up(&cut, whole.p, &whole, 0);
     Bounds *box = arena_array(&cut.arena, Bounds, cut.n), all = bounds_of_points(&whole.p[0][0], 16);
     for (uint32_t i = 0; i < cut.n; i++)
