@@ -567,11 +567,34 @@ static void feel_all(Point *at)
         feel(at, found.item[i], NULL);
 }
 
+static double field_of(const Element *e, Vec3 p)
+{
+    Vec3 q = to_unit(e, p);
+    if (!reaches(e, q))
+        return 0;
+    if (e->kind == BODY)
+        q.z = 0;
+    double g = 1 - length2(q);
+    return g > 0 ? e->strength * g * g : 0;
+}
+
 static bool inside(const void *shape, Vec3 p)
 {
-    Point at = { .blob = shape, .p = p };
-    feel_all(&at);
-    return at.field > at.blob->threshold - INSIDE_SLACK;
+    const Blob *b = shape;
+    double field = 0;
+    if (!bounds_contain(b->box, p))            /* of the strengths above 0: outside of it the field is not */
+        return false;
+    if (b->accel == NULL) {
+        for (uint32_t i = 0; i < b->n; i++)
+            field += field_of(&b->element[i], p);
+    } else {
+        Found found;
+        found.n = 0;
+        b->accel_ops->around(b->accel, p, note, &found);
+        for (uint32_t i = 0; i < found.n; i++)
+            field += field_of(&b->element[found.item[i]], p);
+    }
+    return field > b->threshold - INSIDE_SLACK;
 }
 
 static void surface(const void *shape, const Hit *hit, Surface *out)
