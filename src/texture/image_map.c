@@ -80,7 +80,8 @@ bool image_spot(const ImageMap *map, Vec3 p, ImageSpot *out)
 
 /* ---- pixels ---- */
 
-typedef struct Five { double c[5]; } Five;
+/* Sums of five components, or of palette numbers in the first. */
+typedef struct Sum { double c[5]; } Sum;
 
 static int wrapped_index(int i, int size, bool clamps)
 {
@@ -96,67 +97,68 @@ static int wrapped_index(int i, int size, bool clamps)
 static Colour pixel(const ImageMap *map, int x, int y)
 {
     const Image *im = map->image;
-    x = wrapped_index(x, im->width, map->once);
-    y = wrapped_index(y, im->height, map->once);
     Colour c = image_pixel(im, x, y);
-    if (im->indexed) {
-        int i = image_index(im, x, y);
-        if (map->palette_filter != NULL)
-            c.f = map->palette_filter[i];
-        if (map->palette_transmit != NULL)
-            c.t = map->palette_transmit[i];
-    } else {
+    if (!im->indexed) {
         c.f += map->filter_all;
         c.t += map->transmit_all;
+        return c;
     }
+    int i = image_index(im, x, y);
+    if (map->palette_filter != NULL)
+        c.f = map->palette_filter[i];
+    if (map->palette_transmit != NULL)
+        c.t = map->palette_transmit[i];
     return c;
 }
 
-static Five fetch(const ImageMap *map, int x, int y, bool index)
+static void add_colour(const ImageMap *map, int x, int y, double weight, Sum *sum)
 {
-    if (index)
-        return (Five){ { image_index(map->image, wrapped_index(x, map->image->width, map->once),
-                                     wrapped_index(y, map->image->height, map->once)) } };
     Colour c = pixel(map, x, y);
-    return (Five){ { (double)c.r, (double)c.g, (double)c.b, (double)c.f, (double)c.t } };
+    sum->c[0] += (double)c.r * weight;
+    sum->c[1] += (double)c.g * weight;
+    sum->c[2] += (double)c.b * weight;
+    sum->c[3] += (double)c.f * weight;
+    sum->c[4] += (double)c.t * weight;
 }
 
-static void add_weighted(Five *sum, Five v, double weight)
+static void add_index(const ImageMap *map, int x, int y, double weight, Sum *sum)
 {
-    for (int i = 0; i < 5; i++)
-        sum->c[i] += v.c[i] * weight;
+    sum->c[0] += image_index(map->image, x, y) * weight;
 }
 
-/* Four pixels round (i,j): weights for (i,j), (i-1,j), (i,j-1), (i-1,j-1). */
-static Five blend4(const ImageMap *map, int i, int j, const double weight[4], bool index)
-{
-    Five sum = { { 0 } };
-    for (int k = 0; k < 4; k++)
-        add_weighted(&sum, fetch(map, i - (k & 1), j - (k >> 1), index), weight[k]);
-    return sum;
-}
+typedef void AddPixel(const ImageMap *map, int x, int y, double weight, Sum *sum);
 
-static Five bilinear(const ImageMap *map, int i, int j, double p, double q, bool index)
+/* The pixels of columns i - back ... and rows j - back ..., n each way; weights by row, then column. */
+static void add_block(const ImageMap *map, int i, int j, int back, int n, const double *weight, AddPixel *add_pixel, Sum *sum)
 {
-    const double weight[4] = { p * q, (1 - p) * q, p * (1 - q), (1 - p) * (1 - q) };
-    return blend4(map, i, j, weight, index);
-}
-
-/* Exactly on a corner one weight is infinite: that pixel alone. */
-static Five by_distance(const ImageMap *map, int i, int j, double p, double q, bool index)
-{
-    double weight[4] = { (1 - p) * (1 - p) + (1 - q) * (1 - q), p * p + (1 - q) * (1 - q), (1 - p) * (1 - p) + q * q,
-                         p * p + q * q };
-    double total = 0;
-    for (int k = 0; k < 4; k++) {
-        if (weight[k] < 1e-300)
-            return fetch(map, i - (k & 1), j - (k >> 1), index);
-        weight[k] = 1 / weight[k];
-        total += weight[k];
+    int x[4], y[4];
+    for (int k = 0; k < n; k++) {
+        x[k] = wrapped_index(i - back + k, map->image->width, map->once);
+        y[k] = wrapped_index(j - back + k, map->image->height, map->once);
     }
+    for (int l = 0; l < n; l++)
+        for (int k = 0; k < n; k++)
+            add_pixel(map, x[k], y[l], weight[n * l + k], sum);
+}
+
+static void bilinear_weights(double p, double q, double out[4])
+{
+    out[0] = (1 - p) * (1 - q);
+    out[1] = p * (1 - q);
+    out[2] = (1 - p) * q;
+    out[3] = p * q;
+}
+
+/* Nearer pixels count more; exactly at the centre of one, it counts alone. */
+static void distance_weights(double p, double q, double out[4])
+{
+    const double d[4] = { p * p + q * q, (1 - p) * (1 - p) + q * q, p * p + (1 - q) * (1 - q),
+                          (1 - p) * (1 - p) + (1 - q) * (1 - q) };
+    double total = 0;
     for (int k = 0; k < 4; k++)
-        weight[k] /= total;
-    return blend4(map, i, j, weight, index);
+        total += out[k] = 1 / fmax(d[k], 1e-300);
+    for (int k = 0; k < 4; k++)
+        out[k] /= total;
 }
 
 static void cubic_weights(double p, double out[4])
@@ -168,28 +170,24 @@ static void cubic_weights(double p, double out[4])
     out[3] = -r * p * p / 2;
 }
 
-static Five bicubic(const ImageMap *map, int i, int j, double p, double q, bool index)
+static Sum interpolated(const ImageMap *map, ImageSpot at, AddPixel *add_pixel)
 {
-    double wx[4], wy[4];
-    cubic_weights(p, wx);
-    cubic_weights(q, wy);
-    Five sum = { { 0 } };
-    for (int l = 0; l < 4; l++)
-        for (int k = 0; k < 4; k++)
-            add_weighted(&sum, fetch(map, i - 2 + k, j - 2 + l, index), wx[k] * wy[l]);
-    return sum;
-}
-
-static Five interpolated(const ImageMap *map, ImageSpot at, bool index)
-{
-    double x = at.x + 0.5, y = at.y + 0.5;
+    double x = at.x + 0.5, y = at.y + 0.5, weight[16];
     int i = (int)x, j = (int)y;
     double p = x - i, q = y - j;
-    switch (map->interpolate) {
-    case 2: return bilinear(map, i, j, p, q, index);
-    case 3: return bicubic(map, i, j, p, q, index);
-    default: return by_distance(map, i, j, p, q, index);
+    Sum sum = { { 0 } };
+    if (map->interpolate == 3) {
+        double wx[4], wy[4];
+        cubic_weights(p, wx);
+        cubic_weights(q, wy);
+        for (int k = 0; k < 16; k++)
+            weight[k] = wx[k % 4] * wy[k / 4];
+        add_block(map, i, j, 2, 4, weight, add_pixel, &sum);
+    } else {
+        (map->interpolate == 2 ? bilinear_weights : distance_weights)(p, q, weight);
+        add_block(map, i, j, 1, 2, weight, add_pixel, &sum);
     }
+    return sum;
 }
 
 static ImageSpot inside_image(const Image *im, ImageSpot at)
@@ -204,7 +202,7 @@ Colour image_sample(const ImageMap *map, ImageSpot at)
     if (map->interpolate == 0) {
         c = pixel(map, (int)at.x, (int)at.y);
     } else {
-        Five v = interpolated(map, at, false);
+        Sum v = interpolated(map, at, add_colour);
         c = (Colour){ (float)v.c[0], (float)v.c[1], (float)v.c[2], (float)v.c[3], (float)v.c[4] };
     }
     float alpha = 1 - c.t;
@@ -219,7 +217,7 @@ Colour image_sample(const ImageMap *map, ImageSpot at)
 double image_sample_index(const ImageMap *map, ImageSpot at)
 {
     at = inside_image(map->image, at);
-    return map->interpolate == 0 ? image_index(map->image, (int)at.x, (int)at.y) : interpolated(map, at, true).c[0];
+    return map->interpolate == 0 ? image_index(map->image, (int)at.x, (int)at.y) : interpolated(map, at, add_index).c[0];
 }
 
 int image_spot_index(const ImageMap *map, ImageSpot at)
