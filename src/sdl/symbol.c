@@ -3,6 +3,8 @@
  * Scope is dynamic: a look-up goes from the innermost table outward through all open ones. That is what shallow binding
  * does without any search: each name points at its innermost binding, a new binding hides the older, and closing a table
  * puts back what its bindings hid. */
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "sdl/parser.h"
@@ -166,7 +168,10 @@ static double declared_number(Str text)
     at += at < end && (*at == '-' || *at == '+');
     if (!number_scan(&at, end, &v))
         v = 0;
-    return (double)(float)(negative ? -v : v); /* POV: values from the command line go through single precision */
+    /* POV: values from the command line go through single precision, and then through six digits of text. */
+    char digits[32];
+    snprintf(digits, sizeof digits, "%g", (double)(float)(negative ? -v : v));
+    return strtod(digits, NULL);
 }
 
 /* 01-language, section 2, and 02-command-line, section 2.1. The first declaration of a name wins. */

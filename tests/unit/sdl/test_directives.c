@@ -173,6 +173,24 @@ static void replayed_tokens_do_what_the_text_does(void **state)
         }
 }
 
+/* What the command line gives: numbers with six digits, the clock in single precision, the first of two declarations. */
+static void options_are_seen_by_the_scene(void **state)
+{
+    (void)state;
+    static const SdlDeclare declare[] = {
+        { { "A", 1 }, { "1.23456789", 10 }, false }, { { "Text", 4 }, { "some text", 9 }, true }, { { "A", 1 }, { "2", 1 }, false },
+        { { "Minus", 5 }, { "-1e10", 5 }, false }, { { "sphere", 6 }, { "1", 1 }, false },
+    };
+    SdlOptions options = { .width = 320, .height = 240, .version = 350, .clock = 0.123456789, .clock_on = true, .frame_number = 7,
+                           .strict = true, .declare = declare, .n_declares = 5, .input_name = str_of("a/b.pov") };
+    Run r;
+    assert_true(run_options(&r, "#debug concat(str(A,0,9),\" \",Text,\" \",str(Minus,0,0),\" \",str(clock,0,9),\" \",str(clock_on,0,0),\" \","
+                                "str(version,0,2),\" \",str(frame_number,0,0),\" \",str(image_width,0,0),\" \",input_file_name,\"\n\")",
+                            &options));
+    assert_string_equal(r.debug, "1.234570000 some text -10000000000 0.123456791 1 3.50 7 320 b.pov\n");
+    run_end(&r);
+}
+
 static void numbers_declared_in_a_loop_take_no_memory(void **state)
 {
     (void)state;
@@ -198,6 +216,7 @@ int main(void)
         cmocka_unit_test(odd_but_legal_orders_are_kept),
         cmocka_unit_test(values_are_declared_copied_and_removed),
         cmocka_unit_test(replayed_tokens_do_what_the_text_does),
+        cmocka_unit_test(options_are_seen_by_the_scene),
         cmocka_unit_test(numbers_declared_in_a_loop_take_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
