@@ -247,15 +247,15 @@ static void build_node(Builder *k, uint32_t index, Range all, int depth)
     while (n < BVH_WIDTH && (at = widest(range, n, binned)) >= 0)
         if (split(k, &range[at], &range[n], binned))
             n++;
-    BvhNode node = { .n = n };
+    BvhNode node = { .used = (1u << n) - 1 };
     for (uint32_t i = 0; i < n; i++) {
         const Range *r = &range[i];
         float lo[4], hi[4];
         f4_store(lo, r->box.lo);
         f4_store(hi, r->box.hi);
         for (int axis = 0; axis < 3; axis++) {
-            node.lo[axis][i] = lo[axis];
-            node.hi[axis][i] = hi[axis];
+            node.side[axis][i] = lo[axis];
+            node.side[axis + 3][i] = hi[axis];
         }
         bool leaf = r->whole || r->n <= k->leaf_max;
         node.count[i] = leaf ? (uint8_t)r->n : 0;

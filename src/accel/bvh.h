@@ -14,13 +14,14 @@ enum {
     BVH_STACK = BVH_MAX_DEPTH * (BVH_WIDTH - 1) + 1
 };
 
-/* The first n children are used. Boxes are the items' own rounded outward and one ulp more: whole-number coordinates round to
- * themselves, and rays along their faces would slip through. */
+/* Boxes are the items' own rounded outward and one ulp more: whole-number coordinates round to themselves, and rays along
+ * their faces would slip through. Four lines of the cache. */
 typedef struct BvhNode {
-    float lo[3][BVH_WIDTH], hi[3][BVH_WIDTH];
+    float side[6][BVH_WIDTH];                  /* low x, y, z, then high x, y, z */
     uint32_t child[BVH_WIDTH];                 /* a node, or a leaf's first place in Bvh.item */
     uint8_t count[BVH_WIDTH];                  /* items of the leaf; 0: a node */
-    uint32_t n;
+    uint32_t used;                             /* bit i: there is a child i */
+    uint32_t unused[5];
 } BvhNode;
 
 typedef struct Bvh {

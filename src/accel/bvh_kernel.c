@@ -10,7 +10,7 @@
 
 typedef struct BoxRay {
     f8 o_near[3], o_far[3], inv_near[3], inv_far[3];
-    int near_is_hi[3];
+    int near[3], far[3];                       /* the sides it enters and leaves by */
 } BoxRay;
 
 typedef struct Visit {
@@ -31,7 +31,8 @@ static BoxRay box_ray(const Ray *ray)
         float small_inv = isinf(large) && d == 0 ? INFINITY : (float)fmin(large * SHRINK, FLT_MAX);
         float large_inv = (float)(large * STRETCH);
         bool back = signbit(d);
-        r.near_is_hi[axis] = back;
+        r.near[axis] = back ? axis + 3 : axis;
+        r.far[axis] = back ? axis : axis + 3;
         r.o_near[axis] = f8_set(back ? below : above);
         r.o_far[axis] = f8_set(back ? above : below);
         r.inv_near[axis] = f8_set(back ? -small_inv : small_inv);
@@ -45,13 +46,17 @@ static inline uint32_t meet(const BvhNode *node, const BoxRay *r, float t_min, f
 {
     f8 near = f8_set(t_min), far = f8_set(t_max);
     for (int axis = 0; axis < 3; axis++) {
-        const float *lo = node->lo[axis], *hi = node->hi[axis];
-        f8 enter = f8_load(r->near_is_hi[axis] ? hi : lo), leave = f8_load(r->near_is_hi[axis] ? lo : hi);
+        f8 enter = f8_load(node->side[r->near[axis]]), leave = f8_load(node->side[r->far[axis]]);
         near = f8_max(f8_mul(f8_sub(enter, r->o_near[axis]), r->inv_near[axis]), near);
         far = f8_min(f8_mul(f8_sub(leave, r->o_far[axis]), r->inv_far[axis]), far);
     }
     f8_store(near_out, near);
-    return f8_le(near, far) & ((1u << node->n) - 1);
+    return f8_le(near, far) & node->used;
+}
+
+static inline Visit visit_of(const BvhNode *node, uint32_t i, float near)
+{
+    return (Visit){ near, node->child[i], node->count[i] };
 }
 
 /* Puts the children on the stack, the nearest on top. */
@@ -60,10 +65,9 @@ static inline uint32_t push(Visit *stack, uint32_t n, const BvhNode *node, uint3
     uint32_t first = n;
     for (; mask != 0; mask &= mask - 1) {
         uint32_t i = (uint32_t)__builtin_ctz(mask), at = n++;
-        float t = near[i];
-        for (; at > first && stack[at - 1].near < t; at--)
+        for (; at > first && stack[at - 1].near < near[i]; at--)
             stack[at] = stack[at - 1];
-        stack[at] = (Visit){ t, node->child[i], node->count[i] };
+        stack[at] = visit_of(node, i, near[i]);
     }
     return n;
 }
@@ -75,26 +79,33 @@ bool ISA_NAME(bvh_walk)(const Bvh *b, const Ray *ray, double *t_max, AccelVisit 
     BoxRay r = box_ray(ray);
     double best = *t_max;
     float t_min = float_below(ray->t_min), limit = float_above(best);
-    uint32_t n = 1;
-    stack[0] = (Visit){ t_min, 0, 0 };
-    while (n > 0) {
-        Visit v = stack[--n];
-        if (v.near > limit)
-            continue;
+    uint32_t n = 0;
+    Visit v = { t_min, 0, 0 };
+    for (;;) {
         if (v.count == 0) {
             const BvhNode *node = &b->node[v.child];
-            n = push(stack, n, node, meet(node, &r, t_min, limit, near), near);
-            continue;
+            uint32_t mask = meet(node, &r, t_min, limit, near), more = mask & (mask - 1);
+            if (mask != 0 && more == 0) {      /* one child, as most often: go on with it */
+                uint32_t i = (uint32_t)__builtin_ctz(mask);
+                v = visit_of(node, i, near[i]);
+                continue;
+            }
+            n = push(stack, n, node, mask, near);
+        } else {
+            for (uint32_t i = 0; i < v.count; i++)
+                if (visit(user, b->item[v.child + i], t_max))
+                    return true;
+            if (*t_max < best) {
+                best = *t_max;
+                limit = float_above(best);
+            }
         }
-        for (uint32_t i = 0; i < v.count; i++)
-            if (visit(user, b->item[v.child + i], t_max))
-                return true;
-        if (*t_max < best) {
-            best = *t_max;
-            limit = float_above(best);
-        }
+        do {
+            if (n == 0)
+                return false;
+            v = stack[--n];
+        } while (v.near > limit);
     }
-    return false;
 }
 
 bool ISA_NAME(bvh_around)(const Bvh *b, Vec3 p, AccelVisit *visit, void *user)
@@ -110,9 +121,9 @@ bool ISA_NAME(bvh_around)(const Bvh *b, Vec3 p, AccelVisit *visit, void *user)
     stack[0] = 0;
     while (n > 0) {
         const BvhNode *node = &b->node[stack[--n]];
-        uint32_t mask = (1u << node->n) - 1;
+        uint32_t mask = node->used;
         for (int axis = 0; axis < 3; axis++)
-            mask &= f8_le(f8_load(node->lo[axis]), above[axis]) & f8_le(below[axis], f8_load(node->hi[axis]));
+            mask &= f8_le(f8_load(node->side[axis]), above[axis]) & f8_le(below[axis], f8_load(node->side[axis + 3]));
         for (; mask != 0; mask &= mask - 1) {
             uint32_t i = (uint32_t)__builtin_ctz(mask);
             if (node->count[i] == 0)
