@@ -1,7 +1,7 @@
 /* array.c - arrays (01-language, section 11). */
 #include "sdl/parser.h"
 
-enum { MAX_ITEMS = 1 << 28 };
+enum { MAX_ITEMS = 1 << 24 };
 
 static int64_t whole(Parser *p)
 {

@@ -10,7 +10,7 @@
 
 #include "sdl/parser.h"
 
-enum { REPLACEMENT = 0xfffd };
+enum { REPLACEMENT = 0xfffd, LONGEST = 1 << 28 };
 
 static char *put(char *out, unsigned c)
 {
@@ -150,7 +150,7 @@ typedef struct Text { char *data; size_t n, capacity; } Text;
 
 static void text_add(Parser *p, Text *t, const char *data, size_t n)
 {
-    if (t->n + n > UINT32_MAX / 4)
+    if (t->n + n > LONGEST)
         fail(p->diag, cursor_loc(p), "a string of %zu bytes is too long", t->n + n);
     if (t->n + n > t->capacity) {
         size_t capacity = (t->n + n) * 2 + 64;

@@ -205,11 +205,18 @@ static Str chain(void *user, Arena *a)
     return text;
 }
 
+static void start_file(Parser *p, Reader *r, uint16_t source, Str text)
+{
+    r->is_file = true;
+    lex_start(&r->lexer, source, text);
+    if (text.n && r->lexer.at != text.data)    /* a UTF-8 mark says how strings are written */
+        p->charset = CHARSET_UTF8;
+}
+
 void cursor_start(Parser *p, uint16_t source, Str text)
 {
     Reader *r = cursor_push_reader(p, (Loc){ 0 });
-    r->is_file = true;
-    lex_start(&r->lexer, source, text);
+    start_file(p, r, source, text);
     p->n_includes = 1;
     diag_chain(p->diag, chain, p);
 }
@@ -223,9 +230,8 @@ void cursor_include(Parser *p, Str name, Loc loc)
     Str text = file_find(p, name, FILE_INCLUDE_EXTENSIONS, loc, true, &source, true);
     symbol_push_table(p, loc);
     Reader *r = cursor_push_reader(p, loc);
-    r->is_file = true;
     r->has_table = true;
-    lex_start(&r->lexer, source, text);
+    start_file(p, r, source, text);
     p->n_includes++;
 }
 

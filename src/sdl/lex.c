@@ -40,8 +40,8 @@ void lex_start(Lexer *l, uint16_t source, Str text)
     if (!text.n)
         text = str_of("");                     /* no arithmetic on NULL */
     *l = (Lexer){ .at = text.data, .end = text.data + text.n, .line_start = text.data, .line = 1, .source = source };
-    if (text.n >= 3 && memcmp(text.data, "\xef\xbb\xbf", 3) == 0)
-        l->at += 3;
+    while (l->at < l->end && (*l->at & 0x80))  /* POV: not only the three bytes of the mark */
+        l->at++;
 }
 
 Loc lex_loc(const Lexer *l)

@@ -21,7 +21,7 @@ void macro_define(Parser *p, const Token *directive)
     Value *old = name.kind == TOK_NAME ? symbol_value(name.sym) : NULL;
     if (name.kind != TOK_NAME || (old && old->kind != VALUE_MACRO && old->kind != VALUE_NONE))
         not_expected(p, &name, old, "undeclared identifier");
-    Macro *m = arena_new(p->arena, Macro);
+    Macro m = { 0 };
     Sym *parameter[MAX_PARAMETERS];
     cursor_raw(p, &t);
     if (t.kind != TOK_LPAREN)
@@ -31,17 +31,19 @@ void macro_define(Parser *p, const Token *directive)
             continue;
         if (t.kind != TOK_NAME)
             not_expected(p, &t, NULL, "identifier or expression.");
-        if (m->n_parameters == MAX_PARAMETERS)
+        if (m.n_parameters == MAX_PARAMETERS)
             fail(p->diag, t.loc, "Too many parameters: a macro can have at most %d.", MAX_PARAMETERS);
-        parameter[m->n_parameters++] = t.sym;
+        parameter[m.n_parameters++] = t.sym;
     }
-    m->name = name.sym;
-    m->loc = name.loc;
-    m->parameter = arena_copy(p->arena, parameter, m->n_parameters * sizeof *parameter);
-    m->token = cursor_body(p, directive, at, &m->first, &m->last);
+    m.name = name.sym;
+    m.loc = name.loc;
+    m.token = cursor_body(p, directive, at, &m.first, &m.last);
+    if (old && old->kind == VALUE_MACRO && old->macro->token == m.token && old->macro->first == m.first)
+        return;                                /* the same once more, in a loop */
+    m.parameter = arena_copy(p->arena, parameter, m.n_parameters * sizeof *parameter);
     Value *v = old ? old : symbol_bind(p, name.sym, 0)->value;
     value_clear(p, v);
-    *v = (Value){ .kind = VALUE_MACRO, .macro = m };
+    *v = (Value){ .kind = VALUE_MACRO, .macro = arena_copy(p->arena, &m, sizeof m) };
 }
 
 typedef struct Argument {

@@ -37,7 +37,7 @@ typedef struct Lexer {
     uint16_t source;
 } Lexer;
 
-void lex_start(Lexer *l, uint16_t source, Str text);       /* skips a UTF-8 mark */
+void lex_start(Lexer *l, uint16_t source, Str text);       /* skips a UTF-8 mark; then `at` is behind the start */
 void lex_next(Parser *p, Lexer *l, Token *out);
 /* `<a, b, c>` of plain literals, with nothing behind it that could go on with the expression: takes it, or takes nothing.
  * inside: the `<` has been taken already. */

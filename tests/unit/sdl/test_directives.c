@@ -173,6 +173,17 @@ static void replayed_tokens_do_what_the_text_does(void **state)
         }
 }
 
+static void a_utf8_mark_at_the_start_says_how_strings_are_written(void **state)
+{
+    (void)state;
+    static const Row rows[] = {
+        { "\xef\xbb\xbf#declare S=\"\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80\"; #debug concat(str(strlen(S),0,0),\" \",str(asc(S),0,0),\"\n\")", "3 233\n" },
+        { "#declare S=\"\xc3\xa9\"; #debug concat(str(strlen(S),0,0),S,\"|\n\")", "2  |\n" },
+        { "#version 3.1; #declare S=\"\xc3\xa9\" #debug concat(str(asc(S),0,0),\"\n\")", "195\n" },
+    };
+    assert_int_equal(check(rows, sizeof rows / sizeof *rows), 0);
+}
+
 /* What the command line gives: numbers with six digits, the clock in single precision, the first of two declarations. */
 static void options_are_seen_by_the_scene(void **state)
 {
@@ -216,6 +227,7 @@ int main(void)
         cmocka_unit_test(odd_but_legal_orders_are_kept),
         cmocka_unit_test(values_are_declared_copied_and_removed),
         cmocka_unit_test(replayed_tokens_do_what_the_text_does),
+        cmocka_unit_test(a_utf8_mark_at_the_start_says_how_strings_are_written),
         cmocka_unit_test(options_are_seen_by_the_scene),
         cmocka_unit_test(numbers_declared_in_a_loop_take_no_memory),
     };
