@@ -442,14 +442,6 @@ void expr_full(Parser *p, Num *out)
     choice_rest(p, out);
 }
 
-void expr_full_rest(Parser *p, Num *first)
-{
-    expr_sum_rest(p, first);
-    relation_rest(p, first);
-    logic_rest(p, first);
-    choice_rest(p, first);
-}
-
 double expr_float(Parser *p)
 {
     Num n;
