@@ -74,7 +74,7 @@ static void mistakes_are_told(void **state)
         { "#declare F = function { internal(99) }", "Function 'internal(99)' does not exist." },
         { "#declare F = function { pattern { slope x } }", "Invalid pattern" },
         { "#declare F = function(a,a) { a }", "two parameters" },
-        { "#declare F = function { T(x,y,z) }", "'.'" },
+        { "#declare F = function { T(x,y,z) }", "period" },
         { "#declare F = function { T(x,y,z).t }", "Bad operands" },
         { "#declare F = function { F(x,y,z) }", "operand" },
         { "#declare F = function { G(x) }", "operand" },
