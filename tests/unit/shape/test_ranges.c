@@ -1,6 +1,6 @@
 /* test_ranges.c - how far away, how large and how small each shape may be.
  *
- * One ray along z, off the axis, at the shape in sizes 0.001, 1 and 1000. WHIT_TABLE=1 prints the table of docs/ranges.md. */
+ * One ray along z, off the axis, at the shape in sizes 0.001, 1 and 1000. WHIT_TABLE=1 prints the table of tests/ranges.md. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
