@@ -157,7 +157,7 @@ static SdlOptions sdl_options(Whit *w, Str path)
 static void tell_unmodelled(Whit *w)
 {
     static const struct { unsigned bit; const char *name; } features[] = {
-        { SCENE_HAS_PHOTONS, "photons" }, { SCENE_HAS_RADIOSITY, "radiosity" },
+        { SCENE_HAS_PHOTONS, "photons" },
         { SCENE_HAS_SUBSURFACE, "subsurface" },
     };
     Loc nowhere = { 0 };

@@ -18,11 +18,16 @@ Sampling *sampling_new(Arena *arena, const World *w, const RenderOptions *option
     return s;
 }
 
-void sampler_init(Sampler *s, Arena *arena, const Sampling *sampling)
+void sampler_init(Sampler *s, Arena *arena, const Sampling *sampling, Radiosity *radiosity)
 {
     s->sampling = sampling;
-    s->tracer = tracer_new(arena, sampling->tracing);
+    s->tracer = tracer_new(arena, sampling->tracing, radiosity);
     tracer_interiors(s->tracer, scaled(sampling->camera.def->location, sampling->world->unit), &s->around);
+}
+
+void sampler_free(Sampler *s)
+{
+    tracer_free(s->tracer);
 }
 
 /* A ray in scene space. */

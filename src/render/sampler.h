@@ -6,7 +6,7 @@
 #include "render/camera.h"
 #include "render/mesh_camera.h"
 #include "render/render.h"
-#include "trace/trace.h"
+#include "trace/radiosity.h"
 
 /* Shared by all threads. */
 typedef struct Sampling {
@@ -26,7 +26,8 @@ typedef struct Sampler {
 } Sampler;
 
 Sampling *sampling_new(Arena *arena, const World *w, const RenderOptions *options);
-void sampler_init(Sampler *s, Arena *arena, const Sampling *sampling);
+void sampler_init(Sampler *s, Arena *arena, const Sampling *sampling, Radiosity *radiosity);
+void sampler_free(Sampler *s);
 
 /* Whole numbers are pixel centres. */
 Colour sampler_colour(Sampler *s, double x, double y);

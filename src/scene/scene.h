@@ -102,6 +102,6 @@ typedef struct Scene {
     unsigned unmodelled;                       /* SCENE_HAS_*: parsed, reported, not drawn */
 } Scene;
 
-enum { SCENE_HAS_PHOTONS = 2, SCENE_HAS_RADIOSITY = 4, SCENE_HAS_SUBSURFACE = 8 };
+enum { SCENE_HAS_PHOTONS = 2, SCENE_HAS_SUBSURFACE = 8 };
 
 #endif

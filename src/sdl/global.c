@@ -135,7 +135,6 @@ static void radiosity(Parser *p, Scene *scene)
     }
     if (parse_version(p) < 350)
         parse_warn(p, "In POV-Ray v3.5 and later a radiosity block in global_settings switches radiosity on.");
-    scene->unmodelled |= SCENE_HAS_RADIOSITY;
 }
 
 /* ---- photons ---- */

@@ -125,7 +125,7 @@ static Rgb answer(const Shade *s, const Layer *layer, const Light *light, Vec3 l
         double intensity = f->brilliance == 1 ? fabs(cosine) : pow(fabs(cosine), (double)f->brilliance);
         sum = rgb_scaled(layer->colour, (float)(intensity * k * layer->opacity - grain));
     }
-    if (!light->def->shadowless && !behind && (f->phong > 0 || f->specular > 0)) {
+    if (!light->def->shadowless && !behind && s->path->ticket->bounces == 0 && (f->phong > 0 || f->specular > 0)) {
         double shine = (f->phong > 0 ? phong(f, s->path->d, layer->n, l) : 0) +
                        (f->specular > 0 ? specular(f, s->path->d, layer->n, l) : 0);
         if (shine > 0)
@@ -160,7 +160,7 @@ Rgb light_shadowed(const Spot *spot, uint32_t index, const Beam *beam)
     int quality = spot->t->tracing->quality;
     if (quality < 4 || (light->def->shadowless && light->projected_through == 0))
         return beam->colour;
-    return light->def->area && quality >= 5 ? area_visible(spot, index, beam->colour)
+    return light->def->area && quality >= 5 && !spot->roughly ? area_visible(spot, index, beam->colour)
                                             : shadow_walk(spot, index, beam, beam->colour);
 }
 
@@ -170,7 +170,7 @@ static Rgb shadowed(Shade *s, uint32_t index, const Beam *beam)
     bool remembered = index < LIGHTS_REMEMBERED && !s->t->world->light[index].grouped;
     if (remembered && (s->known >> index & 1))
         return s->light[index];
-    Spot spot = { s->t, s->surface->p, s->surface, s->path->in };
+    Spot spot = { s->t, s->surface->p, s->surface, s->path->in, s->path->ticket->bounces > 0 };
     Rgb c = light_shadowed(&spot, index, beam);
     if (remembered) {
         s->known |= 1u << index;
@@ -210,7 +210,8 @@ static Rgb shade_light(Shade *s, const Layer *layer, uint32_t index)
 {
     const Light *light = &s->t->world->light[index];
     Beam beam;
-    bool lit_by_area = light->def->area && light->def->area_illumination && s->t->tracing->quality >= 5;
+    bool lit_by_area = light->def->area && light->def->area_illumination && s->t->tracing->quality >= 5 &&
+                       s->path->ticket->bounces == 0;
     if (!light_beam(light, light->location, s->surface->p, light->colour, &beam) && !lit_by_area)
         return rgb_grey(0);
     if (lit_by_area) {
@@ -240,6 +241,8 @@ Rgb shade_lights(Shade *s, const Layer *layer)
 {
     const Finish *f = layer->finish;
     Rgb sum = rgb_grey(0);
+    if (s->t->vain && s->path->ticket->bounces == 0)
+        return sum;
     if (f->diffuse == 0 && f->diffuse_back == 0 && f->specular == 0 && f->phong == 0)
         return sum;
     const World *w = s->t->world;

@@ -93,7 +93,7 @@ static Rgb light_at(const Stretch *s, Vec3 p, double at)
 {
     const World *w = s->t->world;
     Rgb sum = rgb_grey(0);
-    Spot spot = { s->t, p, NULL, s->in };
+    Spot spot = { s->t, p, NULL, s->in, false };
     for (uint32_t i = 0; i < s->n_light_spans; i++) {
         const LightSpan *span = &s->t->light_span[i];
         const Light *light = &w->light[span->light];
@@ -471,6 +471,8 @@ Colour media_air(Tracer *t, const Path *path, double depth, Colour c)
 
 Colour media_bodies(Tracer *t, const Path *path, const Material *lit_for, double depth, Colour c)
 {
+    if (path->ticket->bounces > 0 && !t->world->globals.radiosity.media)
+        return c;
     if (!t->tracing->has_media || path->in->n == 0 || !interiors_hollow(t->world, path->in))
         return c;
     Stretch s;

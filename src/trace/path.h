@@ -25,6 +25,14 @@ typedef struct Bow {                           /* a rainbow made ready */
 
 typedef struct MediaLimit { const Media *media; const double *threshold; } MediaLimit;
 
+typedef struct Ticket {                        /* limits of a ray and of all that comes from it */
+    double adc_bailout;
+    int max_level;
+    int bounces;                               /* of diffuse light: how many gathering rays stand behind it */
+} Ticket;
+
+typedef struct Gather Gather;                  /* radiosity.c: what one tracer has gathered */
+
 struct Tracing {
     const World *world;
     int quality;
@@ -32,7 +40,8 @@ struct Tracing {
     Colour background;                         /* as the sky shows it */
     bool wants_uv;                             /* some texture or object maps by uv */
     double to_scene;                           /* 1 / world->unit */
-    double adc_bailout;
+    Ticket ticket;                             /* of camera rays */
+    bool radiosity;
     int max_level;
     bool has_media;                            /* in some body */
     MediaLimit *media_limit;    uint32_t n_media_limits;       /* of media that sample adaptively */
@@ -59,6 +68,9 @@ struct Tracer {
     LightSpan *light_span;                     /* n_lights */
     MediaSpan *media_span;                     /* 2 n_lights + 1 */
     int nesting;
+    double depth;                              /* how far the path went that was traced last */
+    Gather *gather;                            /* NULL: no radiosity */
+    bool vain;                                 /* what lights give to camera rays does not matter: only gathering does */
 };
 
 typedef struct Path {
@@ -67,6 +79,7 @@ typedef struct Path {
     const Interiors *in;
     double weight;
     double wavelength;                         /* of one band of a dispersed ray, nm; 0: white */
+    const Ticket *ticket;
     uint32_t skip;                             /* flags of prims not seen */
     int level;                                 /* bends behind it */
     bool straight;                             /* continues its parent without a bend: not counted */
@@ -79,6 +92,7 @@ typedef struct Spot {
     Vec3 p;
     const Surface *surface;
     const Interiors *in;                       /* bodies around the ray that came here */
+    bool roughly;                              /* area lights count as points */
 } Spot;
 
 /* One hit being shaded. */
@@ -158,6 +172,13 @@ int interiors_find(const Interiors *list, uint32_t interior);          /* place,
 bool interiors_hollow(const World *w, const Interiors *list);
 double interior_ratio(const World *w, const Interiors *list, uint32_t interior);      /* ior here / ior around, for Fresnel */
 Rgb interior_fade(const Interior *i, double depth);                    /* depth in scene units */
+
+/* radiosity.c */
+Gather *gather_new(Arena *arena, Radiosity *r);
+void gather_free(Gather *g);
+bool gather_here(const Shade *s);              /* does diffuse light of other surfaces count at this hit? */
+/* n: perturbed, raw: not; weight: what is seen of it. */
+Rgb gathered_light(const Shade *s, Vec3 n, Vec3 raw, double weight);
 
 /* setup.c: by the number of samples; NULL: no more than the least are taken. */
 const double *tracing_media_threshold(const Tracing *tracing, const Media *media);

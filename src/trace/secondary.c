@@ -19,7 +19,8 @@ Colour shade_reflect(const Shade *s, const Polish *polish, double weight, bool a
     Vec3 d = reflected(s->path->d, polish->n, s->surface->normal);
     Path path = {
         .o = surface_offset(s->surface, d), .d = d, .reach = INFINITY, .in = s->path->in, .weight = weight,
-        .wavelength = s->path->wavelength, .skip = PRIM_NO_REFLECTION, .level = s->level, .alpha = alpha
+        .wavelength = s->path->wavelength, .ticket = s->path->ticket, .level = s->level, .alpha = alpha,
+        .skip = PRIM_NO_REFLECTION | (s->path->skip & PRIM_NO_RADIOSITY)
     };
     Colour c = trace_path(s->t, &path);
     if (!(polish->finish->irid > 0))
@@ -74,7 +75,7 @@ static Path passed_on(const Shade *s, const Crossing *c, Vec3 d, double weight)
 {
     uint32_t skip = s->path->skip & PRIM_NO_IMAGE ? PRIM_NO_IMAGE | PRIM_NO_IMAGE_LATER : s->path->skip;
     return (Path){ .o = surface_offset(s->surface, d), .d = d, .reach = INFINITY, .in = &c->in, .weight = weight,
-                   .wavelength = s->path->wavelength, .skip = skip, .level = s->level, .alpha = s->path->alpha };
+                   .wavelength = s->path->wavelength, .ticket = s->path->ticket, .skip = skip, .level = s->level, .alpha = s->path->alpha };
 }
 
 /* One bent ray; `total`: it could not leave, and was mirrored. */

@@ -153,8 +153,9 @@ const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha
     tracing->background = background_of(w, alpha, tracing->legacy);
     tracing->wants_uv = world_wants_uv(w);
     tracing->to_scene = 1 / w->unit;
-    tracing->adc_bailout = w->globals.adc_bailout;
     tracing->max_level = w->globals.max_trace_level < 1 ? 1 : w->globals.max_trace_level;
+    tracing->ticket = (Ticket){ .adc_bailout = w->globals.adc_bailout, .max_level = tracing->max_level };
+    tracing->radiosity = w->globals.radiosity.on && quality >= 9;
     tracing->n_area_samples = largest_area(w);
     tracing->has_media = quality >= 9 && has_media(w);
     prepare_air(arena, tracing, w->scene);
@@ -167,7 +168,7 @@ const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha
     return tracing;
 }
 
-Tracer *tracer_new(Arena *arena, const Tracing *tracing)
+Tracer *tracer_new(Arena *arena, const Tracing *tracing, Radiosity *radiosity)
 {
     Tracer *t = arena_new(arena, Tracer);
     t->tracing = tracing;
@@ -176,8 +177,14 @@ Tracer *tracer_new(Arena *arena, const Tracing *tracing)
     t->area = arena_array(arena, AreaSample, tracing->n_area_samples);
     t->light_span = arena_array(arena, LightSpan, t->world->n_lights + 1);
     t->media_span = arena_array(arena, MediaSpan, 2 * (size_t)t->world->n_lights + 1);
+    t->gather = gather_new(arena, radiosity);
     tracer_start_tile(t, 0);
     return t;
+}
+
+void tracer_free(Tracer *t)
+{
+    gather_free(t->gather);
 }
 
 void tracer_start_tile(Tracer *t, uint32_t tile)

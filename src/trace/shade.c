@@ -15,6 +15,8 @@ typedef struct Stack {                         /* a leaf's layers, as far as the
     Rgb sum, filter;
     double through;
     bool filtered;                             /* some layer had a colour */
+    bool gathered;                             /* light from all around, in front and behind: */
+    Rgb around, around_back;
     Vec3 top;                                  /* normal of the top layer */
     Mirror mirror[MIRRORS_MAX];
     uint32_t n_mirrors;
@@ -106,6 +108,26 @@ static void darken_filter(Stack *k, const Finish *f, Colour c, Rgb share)
         k->filter = rgb_mul(k->filter, rgb(fminf(1, 1 - share.r), fminf(1, 1 - share.g), fminf(1, 1 - share.b)));
 }
 
+/* Gathered once, for the first layer that shows enough of it. */
+static Rgb light_around(Stack *k, const Layer *layer)
+{
+    const Shade *s = k->s;
+    const Finish *f = layer->finish;
+    if (f->has_subsurface || !gather_here(s))
+        return rgb_grey(0);
+    double seen = (double)rgb_greyness(rgb_mul(k->filter, layer->colour)) * layer->opacity *
+                  (double)f->diffuse;
+    if (!k->gathered && seen > s->path->ticket->adc_bailout) {
+        k->gathered = true;
+        Vec3 raw = s->surface->normal;
+        k->around = gathered_light(s, layer->n, raw, s->path->weight * seen);
+        if (f->diffuse_back != 0)
+            k->around_back = gathered_light(s, negated(layer->n), negated(raw), s->path->weight * seen);
+    }
+    Rgb light = rgb_add(rgb_scaled(k->around, f->diffuse), rgb_scaled(k->around_back, f->diffuse_back));
+    return rgb_scaled(rgb_mul(layer->colour, light), (float)layer->opacity);
+}
+
 static void shade_layer(Stack *k, const Texture *layer)
 {
     Shade *s = k->s;
@@ -125,8 +147,12 @@ static void shade_layer(Stack *k, const Texture *layer)
         share = reflectivity(s, f, n, rgb_of(c));
         remember_mirror(k, f, n, share);
         Layer at = { f, n, rgb_of(c), (double)opacity(tracing, c) };
-        Rgb glow = rgb_add(rgb_mul(f->ambient, s->t->world->globals.ambient_light), f->emission);
+        Rgb glow = f->emission;                /* POV: with radiosity, ambient light is for old scenes only */
+        if (!tracing->radiosity || tracing->legacy)
+            glow = rgb_add(rgb_mul(f->ambient, s->t->world->globals.ambient_light), glow);
         Rgb light = rgb_scaled(rgb_mul(rgb_of(c), glow), (float)at.opacity);
+        if (tracing->radiosity)
+            light = rgb_add(light, light_around(k, &at));
         light = rgb_add(light, shade_lights(s, &at));
         k->sum = rgb_add(k->sum, rgb_mul(light, k->filter));
     }
@@ -150,13 +176,15 @@ static void shade_leaf(void *user, const TextureLeaf *leaf)
     k.filter = rgb_grey(1);
     k.through = 1;
     k.filtered = false;
+    k.gathered = false;
+    k.around = k.around_back = rgb_grey(0);
     k.top = s->surface->normal;
     k.n_mirrors = 0;
-    for (const Texture *layer = leaf->top; layer != NULL && k.through > s->t->tracing->adc_bailout; layer = layer->below)
+    for (const Texture *layer = leaf->top; layer != NULL && k.through > s->path->ticket->adc_bailout; layer = layer->below)
         shade_layer(&k, layer);
     Colour c = { k.sum.r + k.reflected.r, k.sum.g + k.reflected.g, k.sum.b + k.reflected.b, 0, 0 };
     bool total = false;
-    if (k.through > s->t->tracing->adc_bailout && s->t->tracing->quality >= 6)
+    if (k.through > s->path->ticket->adc_bailout && s->t->tracing->quality >= 6)
         total = shade_transmit(s, &(Polish){ leaf->top->finish, k.top }, k.filter, k.filtered, k.through, &c);
     for (uint32_t i = 0; i < k.n_mirrors; i++) {
         if (total && same_normal(k.mirror[i].polish.n, k.top))
@@ -171,7 +199,7 @@ static void shade_leaf(void *user, const TextureLeaf *leaf)
 
 static void shade_texture(Shade *s, uint32_t texture, float weight)
 {
-    if (texture == 0 || weight < (float)s->t->tracing->adc_bailout)
+    if (texture == 0 || weight < (float)s->path->ticket->adc_bailout)
         return;
     Vec3 p = s->material->flags & MATERIAL_UV ? vec3(s->surface->uv.u, s->surface->uv.v, 0) : s->at.point;
     Colour before = s->sum;

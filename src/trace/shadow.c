@@ -104,7 +104,7 @@ static Rgb surface_passes(Tracer *t, const Ray *ray, const Hit *hit, Surface *su
     for (uint32_t i = 0; i < (surface->n_textures > 0 ? surface->n_textures : 1); i++) {
         veil.weight = surface->n_textures > 0 ? surface->texture[i].weight : 1;
         uint32_t chosen = surface->n_textures > 0 && surface->texture[i].texture != 0 ? surface->texture[i].texture : texture;
-        if (veil.weight >= (float)t->tracing->adc_bailout && chosen != 0)
+        if (veil.weight >= (float)t->tracing->ticket.adc_bailout && chosen != 0)
             texture_resolve(&w->texture[chosen], p, &veil.at, pass_leaf, &veil);
     }
     return veil.sum;

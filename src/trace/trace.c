@@ -8,6 +8,8 @@ static Colour through_air(Tracer *t, const Path *path, double depth, Colour c)
 {
     const Tracing *tracing = t->tracing;
     uint32_t n_media = t->world->scene->n_media;
+    if (path->ticket->bounces > 0 && !t->world->globals.radiosity.media)
+        return c;
     if (tracing->quality < 9 || tracing->n_fog + tracing->n_bows + n_media == 0 || !interiors_hollow(t->world, path->in))
         return c;
     if (tracing->n_bows > 0)
@@ -22,7 +24,8 @@ static Colour through_air(Tracer *t, const Path *path, double depth, Colour c)
 Colour trace_path(Tracer *t, const Path *path)
 {
     const Tracing *tracing = t->tracing;
-    if (path->level >= tracing->max_level || path->weight < tracing->adc_bailout || t->nesting >= NESTING_MAX)
+    t->depth = FAR_AWAY;
+    if (path->level >= path->ticket->max_level || path->weight < path->ticket->adc_bailout || t->nesting >= NESTING_MAX)
         return BLACK;
     int level = path->level + (path->straight ? 0 : 1);
     Ray ray = { path->o, path->d, 0, path->reach };
@@ -37,6 +40,7 @@ Colour trace_path(Tracer *t, const Path *path)
         c = sky_colour(tracing, path->d, path->alpha);
     }
     t->nesting--;
+    t->depth = depth;
     return through_air(t, path, depth, c);
 }
 
@@ -47,6 +51,6 @@ void tracer_interiors(const Tracer *t, Vec3 p, Interiors *out)
 
 Colour tracer_camera_ray(Tracer *t, Vec3 o, Vec3 d, double reach, const Interiors *around)
 {
-    Path path = { .o = o, .d = d, .reach = reach, .in = around, .weight = 1, .skip = PRIM_NO_IMAGE, .alpha = t->tracing->alpha };
+    Path path = { .o = o, .d = d, .reach = reach, .in = around, .weight = 1, .ticket = &t->tracing->ticket, .skip = PRIM_NO_IMAGE, .alpha = t->tracing->alpha };
     return trace_path(t, &path);
 }

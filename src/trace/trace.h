@@ -16,11 +16,14 @@ typedef struct Interiors {
 } Interiors;
 
 typedef struct Tracing Tracing;
+typedef struct Radiosity Radiosity;            /* trace/radiosity.h */
 typedef struct Tracer Tracer;
 
 /* Lives in `arena`, as long as it. quality: 0..11; alpha: is the background to be seen through? */
 const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha);
-Tracer *tracer_new(Arena *arena, const Tracing *tracing);
+/* radiosity: NULL if there is none. What the tracer allocated beyond the arena goes by tracer_free. */
+Tracer *tracer_new(Arena *arena, const Tracing *tracing, Radiosity *radiosity);
+void tracer_free(Tracer *t);
 
 /* A new stretch of chance; what follows depends on the tile alone. */
 void tracer_start_tile(Tracer *t, uint32_t tile);

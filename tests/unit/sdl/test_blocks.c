@@ -390,7 +390,7 @@ static void global_settings_have_their_defaults(void **state)
     assert_true(g->assumed_gamma == GAMMA_POWER && g->assumed_gamma_value == 1 && !g->has_assumed_gamma);
     assert_true(g->photons.on && g->photons.count == 100 && g->photons.gather_max == 100);
     assert_true(g->radiosity.on && g->radiosity.count_bank == 1600 && g->radiosity.nearest_count_adaptive == 2);
-    assert_int_equal(s->scene.unmodelled, SCENE_HAS_PHOTONS | SCENE_HAS_RADIOSITY);
+    assert_int_equal(s->scene.unmodelled, SCENE_HAS_PHOTONS);
     parsed_free(s);
 }
 
