@@ -5,7 +5,7 @@
  * The sink keeps the least hit by a total order, so neither the order nor the number of offers matters. */
 #include "world/prim.h"
 
-#include <float.h>
+#include <stddef.h>
 #include <string.h>
 
 /* How far computed points may lie off their surface, relative to the coordinates that went into them: many times the
@@ -340,7 +340,8 @@ void world_surface(const World *w, const Ray *ray, const Hit *hit, bool want_uv,
     const Affine *place = prim->place;
     Vec3 o = affine_point_back(place, ray->o), d = affine_vector_back(place, ray->d);
     Vec3 local = add(o, scaled(d, hit->t));
-    memset(out, 0, sizeof *out);
+    memset(out, 0, offsetof(Surface, texture));    /* n_textures says which of those count */
+    out->back = false;
     out->p = local;
     out->ray_d = d;
     out->want_uv = want_uv && (prim->ops->flags & SHAPE_HAS_UV);
@@ -350,13 +351,16 @@ void world_surface(const World *w, const Ray *ray, const Hit *hit, bool want_uv,
     Vec3 n = out->normal, g = is_zero(out->geometric) ? out->normal : out->geometric;
     if (is_zero(n))
         n = g = negated(d);                    /* the tip of a cone: any normal will do */
-    g = normalized(g);
-    Vec3 g_world = affine_normal(place, g);
-    double error = out->error / length(g_world);           /* planes a apart become planes a / |n'| apart */
-    out->error = fmax(error, SURFACE_ERROR * magnitude(ray->o, ray->d, hit->t));
-    out->geometric = normalized(g_world);
-    out->normal = normalized(affine_normal(place, normalized(n)));
-    out->p = place->identity || !same_point(out->p, local) ? affine_point(place, out->p) : ray_at(ray, hit->t);
+    out->normal = normalized(n);
+    out->geometric = same_point(n, g) ? out->normal : normalized(g);
+    if (!place->identity) {
+        Vec3 across = affine_normal(place, out->geometric);
+        double world_error = SURFACE_ERROR * magnitude(ray->o, ray->d, hit->t), error = out->error / length(across);
+        out->error = error > world_error ? error : world_error;        /* planes a apart become planes a / |n'| apart */
+        out->normal = same_point(n, g) ? normalized(across) : normalized(affine_normal(place, out->normal));
+        out->geometric = normalized(across);
+        out->p = same_point(out->p, local) ? ray_at(ray, hit->t) : affine_point(place, out->p);
+    }
     if ((prim->flags & PRIM_INVERSE) && !(prim->ops->flags & SHAPE_NORMAL_STAYS))
         out->normal = negated(out->normal);
     out->back = dot(out->normal, ray->d) > 0;
