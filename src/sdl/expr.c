@@ -413,7 +413,7 @@ static void logic_rest(Parser *p, Num *out)
         comparison(p, &b);
         match_terms(out, &b);
         for (int i = 0; i < out->terms; i++)
-            out->v[i] = kind == TOK_AND ? truth(out->v[i]) & truth(b.v[i]) : truth(out->v[i]) | truth(b.v[i]);
+            out->v[i] = kind == TOK_AND ? truth(out->v[i]) && truth(b.v[i]) : truth(out->v[i]) || truth(b.v[i]);
     }
 }
 
