@@ -15,7 +15,7 @@
 
 /* d may be one of the operands, but never overlaps one by part of a row. Unrolling before vectorising would spoil it. */
 #ifdef __clang__
-#define LANE_LOOP _Pragma("clang loop vectorize(enable) unroll(disable)")
+#define LANE_LOOP _Pragma("clang loop unroll(disable)")
 #else
 #define LANE_LOOP _Pragma("GCC ivdep") _Pragma("GCC unroll 1")
 #endif
