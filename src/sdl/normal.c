@@ -96,6 +96,15 @@ static const Normal *body(Parser *p, const Normal *base)
         n.kind = NORMAL_UV;
         n.pattern = pattern_plain(p);
         n.map = (BlendMap){ MAP_NORMAL, 1, inner };
+        if (parse_at_number(p)) {              /* POV: an amount the inner pattern has no place for, and what follows, counts for little */
+            Normal rest = n;
+            PatternDraft d;
+            pattern_begin(&d, n.pattern);
+            parse_float(p);
+            while (modifier(p, &rest, &d))
+                ;
+            n.no_bump_scale |= rest.no_bump_scale;
+        }
         return arena_copy(parse_arena(p), &n, sizeof n);
     }
     PatternDraft d;

@@ -228,6 +228,8 @@ bool pattern_modifier(Parser *p, PatternDraft *d)
         int n = parse_int(p);
         if (n < 0 || n > 3)
             parse_fail(p, "Value for noise_generator must be 0, 1, 2, or 3.");
+        if (!d->pattern.scene_noise)
+            n |= d->pattern.noise_generator;   /* POV: 1 and then 2 make 3 */
         d->pattern.noise_generator = (uint8_t)n;
         d->pattern.scene_noise = n == 0;
         d->changed = true;

@@ -138,7 +138,7 @@ static void shade_layer(Stack *k, const Texture *layer)
         k->top = n;
     bool found = true;
     Colour c = texture_layer_colour(k->leaf, layer, &s->at, &found);
-    if (!found)
+    if (!found && tracing->quality > 1)        /* POV: low quality shows the white that stands for nothing */
         c = (Colour){ 0, 0, 0, 0, 0 };
     Rgb share = rgb_grey(0);
     if (tracing->quality <= 1) {
