@@ -19,10 +19,10 @@ typedef struct {
     double accuracy;
 } Params;
 
-typedef struct Parametric {
+typedef struct Parametric {                    /* lengths in units of `unit`, a power of two near the size of the container */
     Params p;
     Affine place;
-    double scene_unit;                         /* world lengths per scene length */
+    double unit, scene_unit;                   /* scene_unit: world lengths per scene length */
     double size;                               /* of the surface */
     Vec2 cell;                                 /* steps of u and v */
     Vec3 *point;                               /* ROW x ROW */
@@ -72,15 +72,15 @@ static bool item(Parser *p, void *params)
 }
 
 /* Points of the surface for n <= ROW pairs. */
-static void points_at(const Params *p, const double *u, const double *v, Vec3 *out, uint32_t n)
+static void points_at(const Parametric *s, const double *u, const double *v, Vec3 *out, uint32_t n)
 {
     double x[ROW], y[ROW], z[ROW];
     const double *const arguments[] = { u, v };
-    func_eval(p->f[0], arguments, x, n);
-    func_eval(p->f[1], arguments, y, n);
-    func_eval(p->f[2], arguments, z, n);
+    func_eval(s->p.f[0], arguments, x, n);
+    func_eval(s->p.f[1], arguments, y, n);
+    func_eval(s->p.f[2], arguments, z, n);
     for (uint32_t i = 0; i < n; i++)
-        out[i] = vec3(x[i], y[i], z[i]);
+        out[i] = scaled(vec3(x[i], y[i], z[i]), 1 / s->unit);
 }
 
 /* How far the surface may bulge out of the hull of its samples near sample (i, j). */
@@ -132,7 +132,13 @@ static void compile(ShapeBuild *b, const void *params)
 {
     Parametric *s = build_data(b, sizeof *s);
     s->p = *(const Params *)params;
-    s->place = b->place;
+    Container *c = &s->p.container;
+    s->unit = build_unit(fmax(max_abs(c->box.lo), max_abs(c->box.hi)));
+    double k = 1 / s->unit;
+    c->box = (Bounds){ scaled(c->box.lo, k), scaled(c->box.hi, k) };
+    c->centre = scaled(c->centre, k);
+    c->radius *= k;
+    s->place = build_place(b, s->unit);
     s->scene_unit = b->unit;
     s->cell = (Vec2){ (s->p.hi.u - s->p.lo.u) / SIDE, (s->p.hi.v - s->p.lo.v) / SIDE };
     s->point = build_data(b, sizeof(Vec3) * ROW * ROW);
@@ -142,7 +148,7 @@ static void compile(ShapeBuild *b, const void *params)
             u[i] = s->p.lo.u + i * s->cell.u;
             v[i] = s->p.lo.v + j * s->cell.v;
         }
-        points_at(&s->p, u, v, s->point + j * ROW, ROW);
+        points_at(s, u, v, s->point + j * ROW, ROW);
     }
     build_pyramid(b, s);
     Bounds all = s->box[0][0];
@@ -151,7 +157,7 @@ static void compile(ShapeBuild *b, const void *params)
     s->size = fmax(max_abs(all.lo), max_abs(all.hi));
     Bounds seen = bounds_intersection(shape_padded(all), shape_padded(s->p.container.box));
     if (!bounds_is_empty(seen))
-        build_prim(b, s, &b->place, seen);
+        build_prim(b, s, &s->place, seen);
 }
 
 typedef struct Search {
@@ -186,7 +192,7 @@ static void frame_at(const Parametric *s, double u, double v, Vec3 out[3])
         hu = -hu;
     if (v + hv > s->p.hi.v)
         hv = -hv;
-    points_at(&s->p, (const double[]){ u, u + hu, u }, (const double[]){ v, v, v + hv }, out, 3);
+    points_at(s, (const double[]){ u, u + hu, u }, (const double[]){ v, v, v + hv }, out, 3);
     out[1] = scaled(sub(out[1], out[0]), 1 / hu);
     out[2] = scaled(sub(out[2], out[0]), 1 / hv);
 }
@@ -201,7 +207,7 @@ static void refine(Search *q, double u, double v)
 {
     const Parametric *s = q->s;
     Vec3 d = q->ray->d, f[3];
-    double enough = s->size * 0x1p-40 + s->p.accuracy * 0x1p-20;
+    double enough = s->size * 0x1p-40 + s->p.accuracy / s->unit * 0x1p-20;
     for (int step = 0; step < MAX_STEPS; step++) {
         frame_at(s, u, v, f);
         Vec3 normal = cross(f[1], f[2]), away = sub(f[0], q->ray->o);

@@ -14,7 +14,7 @@ same() {                                       # same NAME REFERENCE-FILE comman
         echo "not ok $n - $name: $(head -2 "$out/now.txt" | tr '\n' ' ')"
     fi
 }
-for scene in scenes/{showpiece,glass_nested,difference,merge,mesh2,pigment_hexagon,transparent_shadows,light_spot}.pov; do
+for scene in scenes/{showpiece,glass_nested,difference,merge,mesh2,pigment_hexagon,transparent_shadows,light_spot,isosurface,parametric}.pov; do
     name=$(basename "$scene" .pov)
     render "$scene" +WT1 +O- >"$out/one.ppm" 2>/dev/null
     for threads in 2 7; do same "$name with $threads threads" "$out/one.ppm" render "$scene" +WT$threads +O-; done
