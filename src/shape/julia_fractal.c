@@ -36,6 +36,10 @@ enum { MOST_ITERATIONS = 10000 };
 
 static const double ACCURACY = 1e-7;
 
+/* POV: rays leave a hit from its inner end. One that meets the surface again nearer than this goes through: that is dropped as the
+ * surface that it left, and nothing else is looked for. It makes ragged surfaces lighter than shadows would. */
+static const double NEAREST = 1e-3;
+
 /* ---- the functions ---- */
 
 static Complex map_exp(Complex z, Complex e) { (void)e; return cexp(z); }
@@ -388,6 +392,7 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     double out = sqrt(h2), s = fmax(-out, -shift * len + ACCURACY);
     if (!(s < out))
         return;
+    double near = -shift * len > -out ? -shift * len + NEAREST : -INFINITY;
     bool inside_now = holds_or_step(j, add(o, scaled(u, s)), u, &step);
     if (inside_now) {
         s += 2 * ACCURACY;
@@ -401,7 +406,10 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
         bool now = holds_or_step(j, add(o, scaled(u, s)), u, &step);
         if (now == inside_now)
             continue;
-        hit_add(sink, shift + closed_in(j, o, u, previous, s, inside_now) / len, 0);
+        double hit = closed_in(j, o, u, previous, s, inside_now);
+        if (hit < near)
+            return;
+        hit_add(sink, shift + hit / len, 0);
         inside_now = now;
     }
 }
@@ -461,7 +469,6 @@ static void surface(const void *shape, const Hit *hit, Surface *out)
     const Julia *j = shape;
     Vec3 n = j->p.hypercomplex ? hyper_normal(j, out->p) : quaternion_normal(j, out->p);
     out->normal = vec3_finite(n) && max_abs(n) > 0 ? scaled(n, 1 / max_abs(n)) : negated(out->ray_d);
-    out->error = fmax(out->error, 2 * ACCURACY);
 }
 
 static Bounds extent(const void *params, const Affine *place)
