@@ -17,7 +17,8 @@ typedef struct Render {
     int pass;                                  /* of radiosity; -1: the picture */
     double *wobble;                            /* of the places that passes look at */
     float *rgba;
-    WorkCounter tiles;
+    WorkCounter work;                          /* hands out tile[first], tile[first + 1], ... */
+    uint32_t *tile, first;
     int across;                                /* tiles in a row */
     pthread_mutex_t lock;
     RenderProgress *progress;
@@ -98,11 +99,44 @@ static void work(void *user, int worker)
     sampler_init(&sampler, r->arena, r->sampling, r->radiosity);
     pthread_mutex_unlock(&r->lock);
     uint32_t index;
-    while (!r->cancelled && work_take(&r->tiles, &index)) {
-        do_tile(r, antialias, &sampler, index);
+    while (!r->cancelled && work_take(&r->work, &index)) {
+        do_tile(r, antialias, &sampler, r->tile[r->first + index]);
         tell(r);
     }
     sampler_free(&sampler);
+}
+
+static void do_tiles(Render *r, int pass, uint32_t first, uint32_t n)
+{
+    r->pass = pass;
+    r->first = first;
+    work_start(&r->work, n);
+    int threads = r->options->threads < 1 ? 1 : r->options->threads;
+    thread_run(least(threads, (int)n), work, r);
+}
+
+/* The first pass of radiosity begins with one tile, so that the others need not find again what it has found; then two, four,
+ * and so on, strewn over the picture. */
+static void do_passes(Render *r, uint32_t n)
+{
+    int passes = radiosity_passes(r->radiosity, r->options->width, r->options->height);
+    uint32_t stride = n * 5 / 8 | 1;
+    uint8_t *taken = arena_array(r->arena, uint8_t, n);
+    for (uint32_t i = 0, at = 0; i < n; i++, at = (at + stride) % n) {
+        while (taken[at])
+            at = (at + 1) % n;
+        taken[at] = 1;
+        r->tile[i] = at;
+    }
+    r->wobble = wobble_new(r->arena);
+    r->all = (passes + 1) * (int)n;
+    for (int pass = 0; pass < passes && !r->cancelled; pass++)
+        for (uint32_t first = 0, size = pass == 0 ? 1 : n; first < n && !r->cancelled; first += size, size *= 2) {
+            if (size > n - first)
+                size = n - first;
+            do_tiles(r, pass, first, size);
+            radiosity_merge(r->radiosity, pass + 1 == passes && first + size == n);
+        }
 }
 
 bool render(const World *w, const RenderOptions *options, float *rgba, RenderProgress *progress, void *user)
@@ -114,20 +148,17 @@ bool render(const World *w, const RenderOptions *options, float *rgba, RenderPro
     Render r = { .world = w, .options = options, .arena = &arena, .rgba = rgba, .progress = progress, .user = user };
     r.sampling = sampling_new(&arena, w, options);
     r.across = (options->last_column - options->first_column) / TILE_SIZE + 1;
-    int down = (options->last_row - options->first_row) / TILE_SIZE + 1;
-    int tiles = r.across * down, threads = least(options->threads < 1 ? 1 : options->threads, tiles);
-    r.radiosity = radiosity_new(&arena, w, options->quality, (uint32_t)tiles);
-    int passes = r.radiosity != NULL ? radiosity_passes(r.radiosity, options->width, options->height) : 0;
-    r.wobble = passes > 0 ? wobble_new(&arena) : NULL;
-    r.all = (passes + 1) * tiles;
+    uint32_t n = (uint32_t)r.across * (uint32_t)((options->last_row - options->first_row) / TILE_SIZE + 1);
+    r.tile = arena_array(&arena, uint32_t, n);
+    r.all = (int)n;
+    r.radiosity = radiosity_new(&arena, w, options->quality, n);
     pthread_mutex_init(&r.lock, NULL);
-    for (int i = 0; i <= passes && !r.cancelled; i++) {
-        r.pass = i < passes ? i : -1;
-        work_start(&r.tiles, (uint32_t)tiles);
-        thread_run(threads, work, &r);
-        if (i < passes)
-            radiosity_merge(r.radiosity, i + 1 == passes);
-    }
+    if (r.radiosity != NULL)
+        do_passes(&r, n);
+    for (uint32_t i = 0; i < n; i++)
+        r.tile[i] = i;
+    if (!r.cancelled)
+        do_tiles(&r, -1, 0, n);
     pthread_mutex_destroy(&r.lock);
     radiosity_free(r.radiosity);
     arena_free(&arena);
