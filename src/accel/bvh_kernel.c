@@ -21,24 +21,38 @@ typedef struct Visit {
 
 static const double SHRINK = 1 - 0x1p-22, STRETCH = 1 + 0x1p-22;
 
-static BoxRay box_ray(const Ray *ray)
+/* Not above x, within two roundings of it: float_below without branches. Never +INFINITY, which would hide what lies there. */
+static inline float under(double x)
 {
-    BoxRay r;
-    for (int axis = 0; axis < 3; axis++) {
-        double o = vec3_at(ray->o, axis), d = vec3_at(ray->d, axis);
-        double inv = 1 / d, large = fabs(inv);
-        float below = float_below(o), above = float_above(o);
-        float small_inv = isinf(large) && d == 0 ? INFINITY : (float)fmin(large * SHRINK, FLT_MAX);
-        float large_inv = (float)(large * STRETCH);
-        bool back = signbit(d);
-        r.near[axis] = back ? axis + 3 : axis;
-        r.far[axis] = back ? axis : axis + 3;
-        r.o_near[axis] = f8_set(back ? below : above);
-        r.o_far[axis] = f8_set(back ? above : below);
-        r.inv_near[axis] = f8_set(back ? -small_inv : small_inv);
-        r.inv_far[axis] = f8_set(back ? -large_inv : large_inv);
-    }
-    return r;
+    float f = (float)(x - (fabs(x) * 0x1p-23 + 0x1p-149));
+    return f < FLT_MAX ? f : FLT_MAX;
+}
+
+static inline float over(double x)
+{
+    return -under(-x);
+}
+
+static inline void box_ray_axis(BoxRay *r, int axis, double o, double d)
+{
+    double inv = 1 / d, large = fabs(inv), small = large * SHRINK;
+    float small_inv = d == 0 ? INFINITY : (float)(small < (double)FLT_MAX ? small : (double)FLT_MAX);
+    float large_inv = (float)(large * STRETCH);
+    float below = under(o), above = over(o);
+    bool back = signbit(d);
+    r->near[axis] = back ? axis + 3 : axis;
+    r->far[axis] = back ? axis : axis + 3;
+    r->o_near[axis] = f8_set(back ? below : above);
+    r->o_far[axis] = f8_set(back ? above : below);
+    r->inv_near[axis] = f8_set(back ? -small_inv : small_inv);
+    r->inv_far[axis] = f8_set(back ? -large_inv : large_inv);
+}
+
+static inline void box_ray(BoxRay *r, const Ray *ray)
+{
+    box_ray_axis(r, 0, ray->o.x, ray->d.x);
+    box_ray_axis(r, 1, ray->o.y, ray->d.y);
+    box_ray_axis(r, 2, ray->o.z, ray->d.z);
 }
 
 /* The children whose boxes the ray may meet in [t_min, t_max], and where it enters them. */
@@ -76,9 +90,10 @@ bool ISA_NAME(bvh_walk)(const Bvh *b, const Ray *ray, double *t_max, AccelVisit 
 {
     Visit stack[BVH_STACK];
     float near[BVH_WIDTH];
-    BoxRay r = box_ray(ray);
+    BoxRay r;
+    box_ray(&r, ray);
     double best = *t_max;
-    float t_min = float_below(ray->t_min), limit = float_above(best);
+    float t_min = under(ray->t_min), limit = over(best);
     uint32_t n = 0;
     Visit v = { t_min, 0, 0 };
     for (;;) {
@@ -97,7 +112,7 @@ bool ISA_NAME(bvh_walk)(const Bvh *b, const Ray *ray, double *t_max, AccelVisit 
                     return true;
             if (*t_max < best) {
                 best = *t_max;
-                limit = float_above(best);
+                limit = over(best);
             }
         }
         do {
@@ -114,8 +129,8 @@ bool ISA_NAME(bvh_around)(const Bvh *b, Vec3 p, AccelVisit *visit, void *user)
     double t_max = INFINITY;
     f8 below[3], above[3];
     for (int axis = 0; axis < 3; axis++) {
-        below[axis] = f8_set(float_below(vec3_at(p, axis)));
-        above[axis] = f8_set(float_above(vec3_at(p, axis)));
+        below[axis] = f8_set(under(vec3_at(p, axis)));
+        above[axis] = f8_set(over(vec3_at(p, axis)));
     }
     uint32_t n = 1;
     stack[0] = 0;

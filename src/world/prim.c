@@ -13,18 +13,18 @@
  * stepped over too. On a scene of size 1 it is 2e-12. */
 static const double SURFACE_ERROR = 0x1p-39;
 
-struct HitSink {
-    const World *world;
-    const Ray *ray;                            /* in world space */
-    Ray local;                                 /* the same ray in the space of the prim being asked */
+typedef struct Search {
+    HitSink sink;                              /* what shapes see; first, so that a sink leads back here */
+    bool found, stop;
     uint32_t prim, csg;                        /* being asked, and the node above it */
     uint32_t skip;
     uint32_t above;                            /* climbing ends here: the parent of the item in question, or 0 */
-    bool found, stop;
-    Hit best;                                  /* best.t is the limit: ray->t_max until something is found */
+    const World *world;
+    const Ray *ray;                            /* in world space */
     HitVisit *visit;                           /* each hit goes here; NULL: keep the nearest */
     void *user;
-};
+    Hit best;                                  /* if found */
+} Search;
 
 /* ---- inside ---- */
 
@@ -121,11 +121,11 @@ static bool ray_meets_bounds(const World *w, const CsgNode *node, const Ray *ray
 }
 
 /* Does the ray meet all bounds above the prim? Asked once, before its roots are sought. */
-static bool bounds_let_through(const HitSink *sink, uint32_t csg)
+static bool bounds_let_through(const Search *search, uint32_t csg)
 {
-    const World *w = sink->world;
-    for (uint32_t c = csg; c != sink->above; c = w->csg[c].parent)
-        if ((w->csg[c].flags & CSG_BOUND) && !ray_meets_bounds(w, &w->csg[c], sink->ray))
+    const World *w = search->world;
+    for (uint32_t c = csg; c != search->above; c = w->csg[c].parent)
+        if ((w->csg[c].flags & CSG_BOUND) && !ray_meets_bounds(w, &w->csg[c], search->ray))
             return false;
     return true;
 }
@@ -139,14 +139,14 @@ static bool node_keeps(const World *w, const CsgNode *node, uint32_t self, Vec3 
     return !(node->flags & CSG_MERGE) || !some_child(w, node, self, p, true);
 }
 
-static bool csg_keeps(const HitSink *sink, double t)
+static bool csg_keeps(const Search *search, double t)
 {
-    const World *w = sink->world;
-    Vec3 p = ray_at(sink->ray, t);
-    uint32_t self = sink->prim;
+    const World *w = search->world;
+    Vec3 p = ray_at(search->ray, t);
+    uint32_t self = search->prim;
     if ((w->prim[self].flags & PRIM_BOXED) && !bounds_contain(w->box[self], p))
         return false;
-    for (uint32_t c = sink->csg; c != sink->above; c = w->csg[c].parent) {
+    for (uint32_t c = search->csg; c != search->above; c = w->csg[c].parent) {
         if (!node_keeps(w, &w->csg[c], self, p))
             return false;
         self = ~c;
@@ -162,118 +162,122 @@ static bool comes_before(double t, uint32_t prim, uint32_t part, const Hit *b)
     return prim != b->prim ? prim < b->prim : part < b->part;
 }
 
-void hit_add_uv(HitSink *sink, double t, uint32_t part, double u, double v)
+void hit_offer(HitSink *sink, double t, uint32_t part, double u, double v)
 {
-    if (!(t > sink->local.t_min && t <= sink->best.t) || sink->stop)
+    Search *search = (Search *)sink;
+    if (search->found && !comes_before(t, search->prim, part, &search->best))
         return;
-    if (sink->found && !comes_before(t, sink->prim, part, &sink->best))
+    if (search->csg != search->above && !csg_keeps(search, t))
         return;
-    if (sink->csg != sink->above && !csg_keeps(sink, t))
-        return;
-    Hit hit = { .t = t, .u = u, .v = v, .prim = sink->prim, .part = part };
-    if (sink->visit != NULL) {
-        sink->stop = sink->visit(sink->user, &hit);
+    Hit hit = { .t = t, .u = u, .v = v, .prim = search->prim, .part = part };
+    if (search->visit != NULL) {
+        search->stop = search->visit(search->user, &hit);
+        if (search->stop)
+            sink->limit = -INFINITY;
         return;
     }
-    sink->best = hit;
-    sink->found = true;
-}
-
-void hit_add(HitSink *sink, double t, uint32_t part)
-{
-    hit_add_uv(sink, t, part, 0, 0);
-}
-
-double hit_limit(const HitSink *sink)
-{
-    return sink->stop ? -INFINITY : sink->best.t;
+    search->best = hit;
+    search->found = true;
+    sink->limit = t;
 }
 
 /* ---- rays ---- */
 
-static void prim_test(HitSink *sink, uint32_t index)
+static void prim_test(Search *search, uint32_t index)
 {
-    const World *w = sink->world;
+    const World *w = search->world;
     const Prim *prim = &w->prim[index];
-    if ((prim->flags & sink->skip) || ((prim->flags & PRIM_BOUNDED) && !bounds_let_through(sink, prim->csg)))
+    if ((prim->flags & search->skip) || ((prim->flags & PRIM_BOUNDED) && !bounds_let_through(search, prim->csg)))
         return;
-    const Ray *ray = sink->ray;
     const Affine *place = prim->place;
-    sink->local.o = affine_point_back(place, ray->o);
-    sink->local.d = affine_vector_back(place, ray->d);
-    sink->local.t_max = sink->best.t;
-    sink->prim = index;
-    sink->csg = prim->csg;
-    prim->ops->hits(prim->data, &sink->local, sink);
+    Ray local = { affine_point_back(place, search->ray->o), affine_vector_back(place, search->ray->d),
+                  search->sink.t_min, search->sink.limit };
+    search->prim = index;
+    search->csg = prim->csg;
+    prim->ops->hits(prim->data, &local, &search->sink);
 }
 
 static bool test_item(void *user, uint32_t i, double *t_max)
 {
-    (void)t_max;                               /* is sink->best.t itself */
-    HitSink *sink = user;
-    prim_test(sink, sink->world->accel_prim[i]);
-    return sink->stop;
+    (void)t_max;                               /* is sink.limit itself */
+    Search *search = user;
+    prim_test(search, search->world->accel_prim[i]);
+    return search->stop;
 }
 
-static void all_prims(HitSink *sink)
+static void all_prims(Search *search)
 {
-    const World *w = sink->world;
-    for (uint32_t i = 0; i < w->n_unbounded && !sink->stop; i++)
-        prim_test(sink, w->unbounded[i]);
-    if (w->n_accel_prims > 0 && !sink->stop)
-        w->accel_ops->walk(w->accel, sink->ray, &sink->best.t, test_item, sink);
+    const World *w = search->world;
+    for (uint32_t i = 0; i < w->n_unbounded && !search->stop; i++)
+        prim_test(search, w->unbounded[i]);
+    if (w->n_accel_prims > 0 && !search->stop)
+        w->accel_ops->walk(w->accel, search->ray, &search->sink.limit, test_item, search);
 }
 
-static HitSink sink_for(const World *w, const Ray *ray, uint32_t skip)
+static void search_start(Search *search, const World *w, const Ray *ray, uint32_t skip)
 {
-    return (HitSink){ .world = w, .ray = ray, .skip = skip, .local = { .t_min = ray->t_min }, .best = { .t = ray->t_max } };
+    search->sink = (HitSink){ ray->t_min, ray->t_max };
+    search->found = search->stop = false;
+    search->skip = skip;
+    search->above = 0;
+    search->world = w;
+    search->ray = ray;
+    search->visit = NULL;
+}
+
+static bool search_end(const Search *search, Hit *out)
+{
+    if (search->found)
+        *out = search->best;
+    return search->found;
 }
 
 bool world_nearest(const World *w, const Ray *ray, uint32_t skip, Hit *out)
 {
-    HitSink sink = sink_for(w, ray, skip);
-    all_prims(&sink);
-    *out = sink.best;
-    return sink.found;
+    Search search;                             /* not cleared: the hit is written when found */
+    search_start(&search, w, ray, skip);
+    all_prims(&search);
+    return search_end(&search, out);
 }
 
 bool world_each_hit(const World *w, const Ray *ray, uint32_t skip, HitVisit *visit, void *user)
 {
-    HitSink sink = sink_for(w, ray, skip);
-    sink.visit = visit;
-    sink.user = user;
-    all_prims(&sink);
-    return sink.stop;
+    Search search;
+    search_start(&search, w, ray, skip);
+    search.visit = visit;
+    search.user = user;
+    all_prims(&search);
+    return search.stop;
 }
 
 bool prim_nearest(const World *w, uint32_t prim, const Ray *ray, uint32_t skip, Hit *out)
 {
-    HitSink sink = sink_for(w, ray, skip);
-    prim_test(&sink, prim);
-    *out = sink.best;
-    return sink.found;
+    Search search;
+    search_start(&search, w, ray, skip);
+    prim_test(&search, prim);
+    return search_end(&search, out);
 }
 
-static void item_test(HitSink *sink, uint32_t item)
+static void item_test(Search *search, uint32_t item)
 {
-    const World *w = sink->world;
+    const World *w = search->world;
     if (!is_node(item)) {
-        prim_test(sink, item);
+        prim_test(search, item);
         return;
     }
     const CsgNode *node = &w->csg[~item];
     uint32_t n = node->flags & (CSG_CLIP | CSG_BOUND) ? 1 : node->n;       /* helpers show no surface */
     for (uint32_t i = 0; i < n; i++)
-        item_test(sink, w->csg_child[node->first + i]);
+        item_test(search, w->csg_child[node->first + i]);
 }
 
 bool item_nearest(const World *w, uint32_t item, const Ray *ray, Hit *out)
 {
-    HitSink sink = sink_for(w, ray, 0);
-    sink.above = is_node(item) ? w->csg[~item].parent : w->prim[item].csg;
-    item_test(&sink, item);
-    *out = sink.best;
-    return sink.found;
+    Search search;
+    search_start(&search, w, ray, 0);
+    search.above = is_node(item) ? w->csg[~item].parent : w->prim[item].csg;
+    item_test(&search, item);
+    return search_end(&search, out);
 }
 
 /* ---- the surface ---- */

@@ -27,15 +27,32 @@ static inline Vec3 ray_at(const Ray *r, double t)
     return add(r->o, scaled(r->d, t));
 }
 
+/* The open part of a search: which roots still matter. */
+struct HitSink {
+    double t_min, limit;                       /* hits in (t_min, limit] count; limit -INFINITY: nothing more is wanted */
+};
 typedef struct HitSink HitSink;
 
-/* The one way a shape reports a root. Any order, any number of times: the sink decides by the total order (smaller t,
- * then smaller prim, then smaller part) after the range and CSG tests. */
-void hit_add(HitSink *sink, double t, uint32_t part);
-void hit_add_uv(HitSink *sink, double t, uint32_t part, double u, double v);
+/* A root in range: decided by the total order (smaller t, then smaller prim, then smaller part) and the CSG tests. */
+void hit_offer(HitSink *sink, double t, uint32_t part, double u, double v);
+
+/* The one way a shape reports a root. Any order, any number of times. */
+static inline void hit_add_uv(HitSink *sink, double t, uint32_t part, double u, double v)
+{
+    if (t > sink->t_min && t <= sink->limit)
+        hit_offer(sink, t, part, u, v);
+}
+
+static inline void hit_add(HitSink *sink, double t, uint32_t part)
+{
+    hit_add_uv(sink, t, part, 0, 0);
+}
 
 /* What lies beyond this t cannot win any more; a hint for skipping work. -INFINITY: nothing more is wanted. */
-double hit_limit(const HitSink *sink);
+static inline double hit_limit(const HitSink *sink)
+{
+    return sink->limit;
+}
 
 enum { SURFACE_MAX_TEXTURES = 16 };
 
