@@ -303,4 +303,11 @@ static bool around(const void *accel, Vec3 p, AccelVisit *visit, void *user)
     return arounds[b->isa](b, p, visit, user);
 }
 
-const AccelOps accel_bvh = { .name = "bvh", .build = build, .walk = walk, .around = around };
+static bool between(const void *accel, Vec3 o, Bounds to, AccelVisit *visit, void *user)
+{
+    static BvhBetween *const betweens[] = CPU_TABLE(bvh_between);
+    const Bvh *b = accel;
+    return betweens[b->isa](b, o, to, visit, user);
+}
+
+const AccelOps accel_bvh = { .name = "bvh", .build = build, .walk = walk, .around = around, .between = between };

@@ -66,8 +66,9 @@ static inline float float_above(double x)
 
 typedef bool BvhWalk(const Bvh *b, const Ray *ray, double *t_max, AccelVisit *visit, void *user);
 typedef bool BvhAround(const Bvh *b, Vec3 p, AccelVisit *visit, void *user);
+typedef bool BvhBetween(const Bvh *b, Vec3 o, Bounds to, AccelVisit *visit, void *user);
 
-#define DECLARE_BVH(isa) extern BvhWalk bvh_walk_##isa; extern BvhAround bvh_around_##isa;
+#define DECLARE_BVH(isa) extern BvhWalk bvh_walk_##isa; extern BvhAround bvh_around_##isa; extern BvhBetween bvh_between_##isa;
 CPU_ISAS(DECLARE_BVH)
 
 #endif

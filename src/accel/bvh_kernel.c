@@ -150,3 +150,61 @@ bool ISA_NAME(bvh_around)(const Bvh *b, Vec3 p, AccelVisit *visit, void *user)
     }
     return false;
 }
+
+/* ---- between a point and a box ---- */
+
+/* At s in [0, 1] the lines from o fill the box from o + s (to.lo - o) to o + s (to.hi - o). Each of its six sides, as it
+ * moves, meets a child's opposite side at one s, which bounds s from above if it moves away and from below otherwise. */
+typedef struct Side {
+    f8 o, inv;
+    bool below;                                /* bounds s from below */
+} Side;
+
+/* A side that starts at o and moves by d, to pass places on its upper side (upper) or lower side. Loosened as for rays. */
+static inline Side side_of(double o, double d, bool upper)
+{
+    double inv = 1 / d, large = fabs(inv), small = large * SHRINK;
+    bool away = upper ? d < 0 : d > 0;
+    float loose = !away ? (float)(large * STRETCH) : (float)(small < (double)FLT_MAX ? small : (double)FLT_MAX);
+    return (Side){ f8_set(upper ? under(o) : over(o)), f8_set(upper != away ? loose : -loose), away };
+}
+
+static inline void clip(f8 *near, f8 *far, const Side *side, const float *at)
+{
+    f8 s = f8_mul(f8_sub(f8_load(at), side->o), side->inv);
+    if (side->below)
+        *near = f8_max(s, *near);
+    else
+        *far = f8_min(s, *far);
+}
+
+bool ISA_NAME(bvh_between)(const Bvh *b, Vec3 o, Bounds to, AccelVisit *visit, void *user)
+{
+    uint32_t stack[BVH_STACK];
+    double t_max = INFINITY;
+    Side low[3], high[3];
+    for (int axis = 0; axis < 3; axis++) {
+        double from = vec3_at(o, axis);
+        low[axis] = side_of(from, vec3_at(to.lo, axis) - from, true);
+        high[axis] = side_of(from, vec3_at(to.hi, axis) - from, false);
+    }
+    uint32_t n = 1;
+    stack[0] = 0;
+    while (n > 0) {
+        const BvhNode *node = &b->node[stack[--n]];
+        f8 near = f8_set(0), far = f8_set(1 + 0x1p-20f);
+        for (int axis = 0; axis < 3; axis++) {
+            clip(&near, &far, &low[axis], node->side[axis + 3]);
+            clip(&near, &far, &high[axis], node->side[axis]);
+        }
+        for (uint32_t mask = f8_le(near, far) & node->used; mask != 0; mask &= mask - 1) {
+            uint32_t i = (uint32_t)__builtin_ctz(mask);
+            if (node->count[i] == 0)
+                stack[n++] = node->child[i];
+            for (uint32_t k = 0; k < node->count[i]; k++)
+                if (visit(user, b->item[node->child[i] + k], &t_max))
+                    return true;
+        }
+    }
+    return false;
+}

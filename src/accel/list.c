@@ -33,7 +33,13 @@ static bool around(const void *accel, Vec3 p, AccelVisit *visit, void *user)
     return offer_all(accel, visit, user, &t_max);
 }
 
-const AccelOps accel_list = { .name = "list", .build = build, .walk = walk, .around = around };
+static bool between(const void *accel, Vec3 o, Bounds to, AccelVisit *visit, void *user)
+{
+    (void)to;
+    return around(accel, o, visit, user);
+}
+
+const AccelOps accel_list = { .name = "list", .build = build, .walk = walk, .around = around, .between = between };
 
 const AccelOps *accel_find(const char *name)
 {

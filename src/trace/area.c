@@ -1,4 +1,7 @@
-/* area.c - area lights: which samples are asked, and how they are weighed (04-shading, section 6.6). */
+/* area.c - area lights: which samples are asked, and how they are weighed (04-shading, section 6.6).
+ *
+ * The rays to the samples of a light run side by side: what may stand in their way is looked up once, and mostly it is
+ * little or nothing. */
 #include "trace/path.h"
 
 /* Axes of an oriented light: it always faces the point it lights. */
@@ -38,7 +41,52 @@ typedef struct Area {
     uint32_t light;
     Vec3 l;
     Rgb colour;
+    const Shaft *among;                        /* what may hide samples; NULL: not known */
+    bool clear;                                /* all samples reach the surface as they are */
 } Area;
+
+/* ---- what lies between ---- */
+
+/* How far samples lie along an axis of the light, in its lengths. */
+static double reach_of(const LightSource *def, int size)
+{
+    double reach = size > 1 ? 0.501 : 0;
+    return size > 1 && def->jitter ? reach + 0.5 / (size - 1) : reach;
+}
+
+static Bounds bounds_of_samples(const Light *light, double margin)
+{
+    double r1 = reach_of(light->def, light->def->size1), r2 = reach_of(light->def, light->def->size2);
+    Vec3 a = scaled(light->axis1, r1), b = scaled(light->axis2, r2);
+    Vec3 half = vec3(fabs(a.x) + fabs(b.x), fabs(a.y) + fabs(b.y), fabs(a.z) + fabs(b.z));
+    if (light->def->orient) {                  /* it turns, with the length of its first axis for both */
+        double most = length(light->axis1) * (r1 + r2);
+        half = vec3(most, most, most);
+    }
+    half = add(half, vec3(margin, margin, margin));
+    return (Bounds){ sub(light->location, half), add(light->location, half) };
+}
+
+/* Fails if the rays to the samples do not all start on the same side of the surface, or do not lead to them. */
+static bool look_between(const Area *a, Shaft *out)
+{
+    const Spot *spot = a->spot;
+    const Light *light = &spot->t->world->light[a->light];
+    if (light->def->parallel || light->def->kind == LIGHT_CYLINDER || light->projected_through != 0)
+        return false;
+    const Surface *surface = spot->surface;
+    Bounds to = bounds_of_samples(light, 8 * (surface != NULL ? surface->error : 0));
+    if (surface != NULL) {
+        Vec3 g = surface->geometric, half = sub(to.hi, light->location);
+        double across = dot(g, sub(light->location, spot->p));
+        if (fabs(across) <= fabs(g.x) * half.x + fabs(g.y) * half.y + fabs(g.z) * half.z)
+            return false;
+    }
+    world_shaft(spot->t->world, surface != NULL ? surface_offset(surface, a->l) : spot->p, to, PRIM_NO_SHADOW, out);
+    return !out->crowded;
+}
+
+/* ---- samples ---- */
 
 /* POV: a sample counts as known by its red not being negative. */
 static Rgb area_sample(const Area *a, int u, int v)
@@ -48,10 +96,13 @@ static Rgb area_sample(const Area *a, int u, int v)
     AreaSample *known = &t->area[u * light->def->size2 + v];
     if (known->stamp == t->area_stamp && known->colour.r >= 0)
         return known->colour;
-    Beam beam;
     Vec3 from = add(light->location, area_sample_place(t, light, a->l, u, v));
-    light_beam(light, from, a->spot->p, a->colour, &beam);
-    known->colour = shadow_walk(a->spot, a->light, &beam, a->colour);
+    known->colour = a->colour;
+    if (!a->clear) {
+        Beam beam;
+        light_beam(light, from, a->spot->p, a->colour, &beam);
+        known->colour = shadow_walk(a->spot, a->light, &beam, a->colour, a->among);
+    }
     known->stamp = t->area_stamp;
     return known->colour;
 }
@@ -87,6 +138,13 @@ Rgb area_visible(const Spot *spot, uint32_t light, Rgb colour)
 {
     const Light *source = &spot->t->world->light[light];
     spot->t->area_stamp++;
-    Area a = { spot, light, normalized(sub(source->location, spot->p)), colour };
+    Area a = { .spot = spot, .light = light, .l = normalized(sub(source->location, spot->p)), .colour = colour };
+    Shaft among;
+    if (look_between(&a, &among)) {
+        a.among = &among;
+        a.clear = among.n == 0 && !shadow_dims(spot->t);
+        if (a.clear && !source->def->jitter)
+            return colour;                     /* the mean of equals, exactly */
+    }
     return area_mean(&a, 0, 0, source->def->size1 - 1, source->def->size2 - 1, 0);
 }

@@ -161,7 +161,7 @@ Rgb light_shadowed(const Spot *spot, uint32_t index, const Beam *beam)
     if (quality < 4 || (light->def->shadowless && light->projected_through == 0))
         return beam->colour;
     return light->def->area && quality >= 5 && !spot->roughly ? area_visible(spot, index, beam->colour)
-                                            : shadow_walk(spot, index, beam, beam->colour);
+                                                               : shadow_walk(spot, index, beam, beam->colour, NULL);
 }
 
 /* Shadows fall alike on all layers of a hit. */

@@ -4,7 +4,7 @@
 
 #include "texture/texture.h"
 #include "trace/trace.h"
-#include "world/prim.h"
+#include "world/shaft.h"
 
 enum { FOGS_MAX = 64, RAINBOWS_MAX = 64, HUES = 74 };
 
@@ -152,7 +152,8 @@ Rgb shade_lights(Shade *s, const Layer *layer);
 Rgb light_shadowed(const Spot *spot, uint32_t light, const Beam *beam);
 
 /* shadow.c: `colour` as it passes from the light at distance beam->d to the spot. */
-Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour);
+Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour, const Shaft *among);  /* NULL: all prims */
+bool shadow_dims(const Tracer *t);             /* may light grow weaker where it meets no surface? */
 
 /* area.c */
 Rgb area_visible(const Spot *spot, uint32_t light, Rgb colour);          /* mean over the samples */

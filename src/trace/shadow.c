@@ -169,7 +169,7 @@ static bool still_hidden(Tracer *t, uint32_t light, const Ray *ray)
     return false;
 }
 
-static Rgb walk_veils(Walk *walk, uint32_t light)
+static Rgb walk_veils(Walk *walk, uint32_t light, const Shaft *among)
 {
     Tracer *t = walk->t;
     Veils veils;                               /* not cleared: its hits are many */
@@ -177,7 +177,8 @@ static Rgb walk_veils(Walk *walk, uint32_t light)
     do {
         veils.n = 0;
         veils.overflowed = false;
-        if (world_each_hit(t->world, &walk->ray, PRIM_NO_SHADOW, keep_veil, &veils)) {
+        if (among != NULL ? shaft_each_hit(t->world, among, &walk->ray, keep_veil, &veils)
+                          : world_each_hit(t->world, &walk->ray, PRIM_NO_SHADOW, keep_veil, &veils)) {
             t->last_blocker[light] = veils.blocker + 1;
             return rgb_grey(0);
         }
@@ -197,7 +198,12 @@ static Rgb walk_veils(Walk *walk, uint32_t light)
     return walk->colour;
 }
 
-Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour)
+bool shadow_dims(const Tracer *t)
+{
+    return t->tracing->quality >= 9 && t->tracing->n_fog + t->world->scene->n_media > 0;
+}
+
+Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour, const Shaft *among)
 {
     Tracer *t = spot->t;
     const Light *source = &t->world->light[light];
@@ -217,10 +223,9 @@ Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour)
             return colour;
         walk.ray.t_max = hit.t * LIGHT_END;    /* only what stands on this side of the projecting surface counts */
     }
-    if (still_hidden(t, light, &walk.ray))
+    if (among == NULL && still_hidden(t, light, &walk.ray))
         return rgb_grey(0);
     interiors_copy(&walk.in, spot->in);
-    walk.in_air = t->tracing->quality >= 9 && t->tracing->n_fog + t->world->scene->n_media > 0 &&
-                  source->def->media_attenuation && source->def->media_interaction;
-    return walk_veils(&walk, light);
+    walk.in_air = shadow_dims(t) && source->def->media_attenuation && source->def->media_interaction;
+    return walk_veils(&walk, light, among);
 }

@@ -8,6 +8,8 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "world/shaft.h"
+
 /* How far computed points may lie off their surface, relative to the coordinates that went into them: many times the
  * rounding of o + t d and two transforms (a few 2^-53), so that near-double roots of quartics and coincident faces are
  * stepped over too. On a scene of size 1 it is 2e-12. */
@@ -247,6 +249,17 @@ bool world_each_hit(const World *w, const Ray *ray, uint32_t skip, HitVisit *vis
     search.visit = visit;
     search.user = user;
     all_prims(&search);
+    return search.stop;
+}
+
+bool shaft_each_hit(const World *w, const Shaft *shaft, const Ray *ray, HitVisit *visit, void *user)
+{
+    Search search;
+    search_start(&search, w, ray, 0);          /* what is to be skipped was not gathered */
+    search.visit = visit;
+    search.user = user;
+    for (uint32_t i = 0; i < shaft->n && !search.stop; i++)
+        prim_test(&search, shaft->prim[i]);
     return search.stop;
 }
 

@@ -18,6 +18,8 @@ typedef struct AccelOps {
     bool (*walk)(const void *accel, const Ray *ray, double *t_max, AccelVisit *visit, void *user);
     /* Offers every item whose box may contain p. */
     bool (*around)(const void *accel, Vec3 p, AccelVisit *visit, void *user);
+    /* Offers every item whose box may meet a straight line from o to a point of `to`. */
+    bool (*between)(const void *accel, Vec3 o, Bounds to, AccelVisit *visit, void *user);
 } AccelOps;
 
 enum {                                         /* Prim.flags */

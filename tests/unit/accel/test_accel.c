@@ -12,7 +12,7 @@
 #include "accel/accel.h"
 #include "base/cpu.h"
 #include "lib/bodies.h"
-#include "world/prim.h"
+#include "world/shaft.h"
 
 enum { MAX_HITS = 4096 };
 
@@ -64,6 +64,25 @@ static void expect_same(const World *list, const World *other, const Ray *ray, u
     assert_true(same);
 }
 
+/* A shaft from the ray's start into a box that holds its end: what the ray meets in between lies in the shaft. */
+static void expect_shaft_complete(const World *list, const World *other, const Ray *ray, uint32_t seed, int i)
+{
+    static Hits a, b;
+    static const double half[4] = { 0, 1e-6, 0.1, 1 };
+    Ray part = { ray->o, ray->d, 0, (1 + i % 5) / length(ray->d) };
+    Vec3 end = ray_at(&part, part.t_max), corner = scaled(vec3(1, 0.5, 0.25), half[i % 4] + 0x1p-40 * max_abs(end));
+    Shaft shaft;
+    world_shaft(other, part.o, (Bounds){ sub(end, corner), add(end, corner) }, 0, &shaft);
+    if (shaft.crowded)
+        return;
+    a.n = b.n = 0;
+    world_each_hit(list, &part, 0, collect, &a);
+    shaft_each_hit(other, &shaft, &part, collect, &b);
+    if (a.n != b.n)
+        print_error("seed %u, ray %d: %u hits, %u in the shaft of %u\n", seed, i, a.n, b.n, shaft.n);
+    assert_int_equal(a.n, b.n);
+}
+
 static void expect_worlds_alike(uint32_t n, const Object *const *object, Arena *a, uint32_t seed, double size, int n_rays)
 {
     static const char *const isas[] = { "base", "avx2", "avx512" };
@@ -75,6 +94,7 @@ static void expect_worlds_alike(uint32_t n, const Object *const *object, Arena *
         for (int i = 0; i < n_rays; i++) {
             Ray ray = random_ray(&d, size);
             expect_same(list, bvh, &ray, seed, i);
+            expect_shaft_complete(list, bvh, &ray, seed, i);
             Vec3 p = dice_point(&d, size);
             uint32_t in_list[8], in_bvh[8], k = world_interiors_at(list, p, in_list, 8);
             assert_int_equal(k, world_interiors_at(bvh, p, in_bvh, 8));
@@ -138,6 +158,7 @@ static void rays_along_a_lattice_are_hit_alike(void **state)
             continue;
         Ray ray = { scaled(from, unit), i % 2 ? normalized(step) : scaled(step, unit), 0, INFINITY };
         expect_same(list, bvh, &ray, 3, i);
+        expect_shaft_complete(list, bvh, &ray, 3, i);
     }
     arena_free(&a);
 }
