@@ -32,7 +32,7 @@ typedef struct Search {
 
 typedef struct Ask {                           /* "does any child but `self` answer `wanted`?" */
     const World *world;
-    uint32_t first, self;
+    uint32_t first, self, skip;
     Vec3 p;
     bool wanted, yes;
 } Ask;
@@ -49,26 +49,31 @@ static bool prim_inside(const Prim *prim, Vec3 p)
     return prim->ops->inside(prim->data, affine_point_back(prim->place, p)) != ((prim->flags & PRIM_INVERSE) != 0);
 }
 
+/* Prims with a flag of `skip` are not asked. */
+static inline bool child_answers(const World *w, uint32_t item, uint32_t self, Vec3 p, bool wanted, uint32_t skip)
+{
+    if (item == self || (!is_node(item) && (w->prim[item].flags & skip)))
+        return false;
+    return item_inside(w, item, p) == wanted;
+}
+
 static bool ask_child(void *user, uint32_t i, double *t_max)
 {
     (void)t_max;
     Ask *ask = user;
-    uint32_t item = ask->world->csg_child[ask->first + i];
-    ask->yes = item != ask->self && item_inside(ask->world, item, ask->p) == ask->wanted;
+    ask->yes = child_answers(ask->world, ask->world->csg_child[ask->first + i], ask->self, ask->p, ask->wanted, ask->skip);
     return ask->yes;
 }
 
 /* The accelerator holds only children that, outside their box, do not answer what is wanted here. */
-static bool some_child(const World *w, const CsgNode *node, uint32_t self, Vec3 p, bool wanted)
+static bool some_child(const World *w, const CsgNode *node, uint32_t self, Vec3 p, bool wanted, uint32_t skip)
 {
-    for (uint32_t i = 0; i < node->n_listed; i++) {
-        uint32_t item = w->csg_child[node->first + i];
-        if (item != self && item_inside(w, item, p) == wanted)
+    for (uint32_t i = 0; i < node->n_listed; i++)
+        if (child_answers(w, w->csg_child[node->first + i], self, p, wanted, skip))
             return true;
-    }
     if (node->accel == NULL)
         return false;
-    Ask ask = { w, node->first + node->n_listed, self, p, wanted, false };
+    Ask ask = { w, node->first + node->n_listed, self, skip, p, wanted, false };
     w->accel_ops->around(node->accel, p, ask_child, &ask);
     return ask.yes;
 }
@@ -84,7 +89,7 @@ bool item_inside(const World *w, uint32_t item, Vec3 p)
         return item_inside(w, w->csg_child[node->first], p);
     if (!bounds_contain(node->box, p))
         return (node->flags & CSG_INVERSE) != 0;
-    return node->op == CSG_ANY ? some_child(w, node, NO_ITEM, p, true) : !some_child(w, node, NO_ITEM, p, false);
+    return node->op == CSG_ANY ? some_child(w, node, NO_ITEM, p, true, 0) : !some_child(w, node, NO_ITEM, p, false, 0);
 }
 
 /* ---- which hits count ---- */
@@ -132,13 +137,14 @@ static bool bounds_let_through(const Search *search, uint32_t csg)
     return true;
 }
 
-static bool node_keeps(const World *w, const CsgNode *node, uint32_t self, Vec3 p)
+/* POV: what a ray does not see hides nothing from it in a merge, but still cuts in an intersection. */
+static bool node_keeps(const World *w, const CsgNode *node, uint32_t self, Vec3 p, uint32_t skip)
 {
     if (node->flags & CSG_BOUND)
         return true;                           /* as bounds_let_through has found */
     if (node->op == CSG_ALL)
-        return !some_child(w, node, self, p, false);
-    return !(node->flags & CSG_MERGE) || !some_child(w, node, self, p, true);
+        return !some_child(w, node, self, p, false, 0);
+    return !(node->flags & CSG_MERGE) || !some_child(w, node, self, p, true, skip);
 }
 
 static bool csg_keeps(const Search *search, double t)
@@ -149,7 +155,7 @@ static bool csg_keeps(const Search *search, double t)
     if ((w->prim[self].flags & PRIM_BOXED) && !bounds_contain(w->box[self], p))
         return false;
     for (uint32_t c = search->csg; c != search->above; c = w->csg[c].parent) {
-        if (!node_keeps(w, &w->csg[c], self, p))
+        if (!node_keeps(w, &w->csg[c], self, p, search->skip))
             return false;
         self = ~c;
     }
