@@ -30,7 +30,6 @@ endef
 $(eval $(call optional,PNG,libpng))
 $(eval $(call optional,JPEG,libjpeg))
 $(eval $(call optional,TIFF,libtiff-4))
-$(eval $(call optional,FREETYPE,freetype2))
 $(eval $(call optional,FONTCONFIG,fontconfig))
 
 # *_kernel.c is built once per instruction set, each object exporting names with the set pasted on (base/cpu.h).

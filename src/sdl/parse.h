@@ -74,6 +74,7 @@ bool parse_at_float(Parser *p);                /* could a float begin here? (a n
 Str parse_read_file(Parser *p, Str name, Loc where);
 /* The same, also with one of the extensions (ended by NULL) appended; false if there is none. */
 bool parse_find_file(Parser *p, Str name, const char *const *extensions, Loc where, Str *out);
+bool parse_is_strict(const Parser *p);         /* nothing is mended: as the reference or not at all */
 bool parse_charset_is_ascii(const Parser *p);  /* as global_settings said; strings are UTF-8 in any case */
 
 _Noreturn void parse_fail(Parser *p, const char *format, ...) __attribute__((format(printf, 2, 3)));

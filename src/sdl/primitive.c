@@ -307,6 +307,11 @@ bool parse_find_file(Parser *p, Str name, const char *const *extensions, Loc whe
     return out->data != NULL;
 }
 
+bool parse_is_strict(const Parser *p)
+{
+    return p->options->strict;
+}
+
 bool parse_charset_is_ascii(const Parser *p)
 {
     return p->charset == CHARSET_ASCII;

@@ -107,7 +107,7 @@ static Str font_bytes(Parser *p, Str name, uint32_t *index)
         return bytes;
 #ifdef HAVE_FONTCONFIG
     Str path, family;
-    if (substitute(parse_arena(p), name, &path, &family, index) &&
+    if (!parse_is_strict(p) && substitute(parse_arena(p), name, &path, &family, index) &&
         file_read(parse_arena(p), NULL, path, &bytes) == FILE_OK) {
         parse_warn(p, "there is no font '%.*s': %.*s (%.*s) is used", STR_ARGS(name), STR_ARGS(family), STR_ARGS(path));
         return bytes;
