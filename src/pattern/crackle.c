@@ -66,13 +66,27 @@ static inline unsigned row_of(const Grid *g, int x, int y)
     return noise_tables.hash[noise_tables.hash[(g->x + x) & 4095] ^ (unsigned)((g->y + y) & 4095)];
 }
 
-static inline double measure(double x, double y, double z, double metric)
+/* |x|^metric, the part of one axis. */
+static inline double part(double x, double metric)
 {
     if (metric == 2)
-        return x * x + y * y + z * z;
+        return x * x;
+    x = fabs(x);
     if (metric == 1)
-        return fabs(x) + fabs(y) + fabs(z);
-    return pow(fabs(x), metric) + pow(fabs(y), metric) + pow(fabs(z), metric);
+        return x;
+    if (!(metric > 0 && metric <= 8 && metric * 2 == floor(metric * 2)))
+        return pow(x, metric);
+    double v = metric == floor(metric) ? 1 : sqrt(x);          /* several times faster */
+    for (double n = metric; n >= 1; n--)
+        v *= x;
+    return v;
+}
+
+/* Of two points; a sum that has passed `enough` need not be finished. */
+static inline double measure(Vec3 p, Vec3 q, double metric, double enough)
+{
+    double s = part(p.x - q.x, metric) + part(p.y - q.y, metric);
+    return metric != 2 && s > enough ? s : s + part(p.z - q.z, metric);
 }
 
 typedef struct Near {
@@ -100,7 +114,7 @@ static inline Axis axis_of(double f, double metric)
 {
     int side = f > 0.5 ? 1 : -1;
     double low = fmax(0, f) * (1 - 1e-9), high = fmax(0, 1 - f) * (1 - 1e-9);
-    return (Axis){ { 0, side, -side }, { 0, measure(side > 0 ? high : low, 0, 0, metric), measure(side > 0 ? low : high, 0, 0, metric) } };
+    return (Axis){ { 0, side, -side }, { 0, part(side > 0 ? high : low, metric), part(side > 0 ? low : high, metric) } };
 }
 
 /* `last`: which of the three smallest is wanted last. What lies farther away than that one so far is passed over; metric > 0. */
@@ -117,13 +131,13 @@ static inline Near near_of(Vec3 p, double metric, int last)
             unsigned row = row_of(&g, ax.step[i], ay.step[j]);
             for (int k = 0; k < 3 && gap + az.gap[k] <= near.s[last]; k++) {
                 Vec3 q = point_in(&g, row, ax.step[i], ay.step[j], az.step[k]);
-                offer(&near, measure(p.x - q.x, p.y - q.y, p.z - q.z, metric), q);
+                offer(&near, measure(p, q, metric, near.s[2]), q);
             }
         }
     for (int i = 0; near.s[last] > 1 - 1e-9 && i < 54; i++) {
         const int8_t *c = beyond[i];
         Vec3 q = point_in(&g, row_of(&g, c[0], c[1]), c[0], c[1], c[2]);
-        offer(&near, measure(p.x - q.x, p.y - q.y, p.z - q.z, metric), q);
+        offer(&near, measure(p, q, metric, near.s[2]), q);
     }
     return near;
 }
@@ -137,7 +151,7 @@ static Near near_of_all(Vec3 p, double metric)
         int x = i < 27 ? i % 3 - 1 : beyond[i - 27][0], y = i < 27 ? i / 3 % 3 - 1 : beyond[i - 27][1];
         int z = i < 27 ? i / 9 - 1 : beyond[i - 27][2];
         Vec3 q = point_in(&g, row_of(&g, x, y), x, y, z);
-        offer(&near, measure(p.x - q.x, p.y - q.y, p.z - q.z, metric), q);
+        offer(&near, measure(p, q, metric, near.s[2]), q);
     }
     return near;
 }
