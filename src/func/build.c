@@ -400,6 +400,19 @@ static void emit_node(Emit *e, uint32_t at)
     array_push(b->arena, &e->code, i);
 }
 
+static int depth_of(const Emit *e)
+{
+    int depth = 0;
+    for (uint32_t i = 0; i < e->code.n; i++) {
+        const Instr *instr = &e->code.data[i];
+        if (instr->op == FUNC_CALL || instr->op == FUNC_SUM || instr->op == FUNC_PROD) {
+            int below = ((const Function *)instr->callee)->depth + 1;
+            depth = below > depth ? below : depth;
+        }
+    }
+    return depth;
+}
+
 const Function *func_finish(FuncBuilder *b, FuncNode result)
 {
     uint32_t n = b->node.n;
@@ -420,11 +433,12 @@ const Function *func_finish(FuncBuilder *b, FuncNode result)
         }
     }
     array_push(b->arena, &e.code, (Instr){ .op = CODE_END, .a = e.reg[result] });
-    if (e.too_many)
+    int depth = depth_of(&e);
+    if (e.too_many || depth > CODE_MAX_DEPTH)
         return NULL;
     Function *f = arena_new(b->arena, Function);
     *f = (Function){ .parameters = b->parameters, .terms = 1, .code = e.code.data, .argument = e.argument.data,
-                     .n_registers = e.n_registers > 0 ? e.n_registers : 1, .node = b->node.data,
+                     .n_registers = e.n_registers > 0 ? e.n_registers : 1, .depth = depth, .node = b->node.data,
                      .node_argument = b->argument.data, .n_nodes = n, .result = result };
     return f;
 }

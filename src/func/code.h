@@ -8,7 +8,8 @@
 #include "base/cpu.h"
 #include "func/func.h"
 
-enum { CODE_MAX_REGISTERS = 1200, CODE_MAX_ARGUMENTS = FUNC_MAX_PARAMETERS + 8, CODE_INLINE_LIMIT = 3000 };
+enum { CODE_MAX_REGISTERS = 1200, CODE_MAX_ARGUMENTS = FUNC_MAX_PARAMETERS + 8, CODE_INLINE_LIMIT = 3000,
+       CODE_MAX_DEPTH = 32 };                   /* of calls that are not dissolved: each takes stack for its registers */
 
 /* Instructions: dst = op(a, b, c), where a, b, c are registers and k is a number. Those after N_FUNC_OPS exist in code only. */
 enum {
@@ -43,6 +44,7 @@ struct Function {
     const Instr *code;
     const uint16_t *argument;
     uint32_t n_registers;                      /* the first ones are the parameters */
+    int depth;                                 /* of calls and loops within */
     const Node *node;                          /* for callers to dissolve it */
     const uint32_t *node_argument;
     uint32_t n_nodes, result;

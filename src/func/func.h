@@ -80,7 +80,7 @@ bool func_is_number(const FuncBuilder *b, FuncNode a, double *v);      /* is its
 FuncBuilder *func_loop_body(FuncBuilder *outer);
 FuncNode func_loop(FuncBuilder *outer, FuncOp op, FuncNode from, FuncNode to, const Function *body);
 
-/* NULL if it needs more registers than there are (thousands). */
+/* NULL if it needs more registers than there are (a thousand), or calls nest too deep (32, beyond what dissolves). */
 const Function *func_finish(FuncBuilder *b, FuncNode result);
 
 #endif

@@ -143,7 +143,7 @@ static const Function *finished(Parser *p, Scope *s, FuncNode result)
 {
     const Function *f = func_finish(s->b, result);
     if (f == NULL)
-        parse_fail(p, "this function is too complex: more values are needed at once than there are registers");
+        parse_fail(p, "this function is too complex: it needs too many values at once, or its calls nest too deep");
     return f;
 }
 

@@ -141,6 +141,29 @@ static void calls_give_what_the_callee_gives(void **state)
     arena_free(&arena);
 }
 
+/* Each function calls the one before it, which is too long to dissolve: without a limit the stack would end first. */
+static void calls_that_nest_too_deep_are_refused(void **state)
+{
+    (void)state;
+    Arena arena;
+    arena_init(&arena);
+    const Function *f = NULL;
+    int depth = 0;
+    do {
+        FuncBuilder *b = func_builder(&arena, 1);
+        FuncNode v = func_parameter(b, 0);
+        for (int i = 0; i < CODE_INLINE_LIMIT; i++)
+            v = func_binary(b, FUNC_MUL, v, func_number(b, 1 + i * 1e-9));
+        if (f != NULL)
+            v = func_apply(b, f, &v, FUNC_X);
+        f = func_finish(b, v);
+        if (f != NULL)
+            func_call(f, (const double[]){ 1 });
+    } while (f != NULL && ++depth < 1000);
+    assert_true(depth > 10 && depth < 100);
+    arena_free(&arena);
+}
+
 static void hosts_give_components(void **state)
 {
     (void)state;
@@ -195,6 +218,7 @@ int main(void)
         cmocka_unit_test(sums_are_the_same_in_turns_and_in_lanes),
         cmocka_unit_test(equal_parts_are_computed_once_and_numbers_fold),
         cmocka_unit_test(calls_give_what_the_callee_gives),
+        cmocka_unit_test(calls_that_nest_too_deep_are_refused),
         cmocka_unit_test(hosts_give_components),
         cmocka_unit_test(ranges_hold_every_value),
     };
