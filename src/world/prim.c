@@ -376,14 +376,15 @@ void world_surface(const World *w, const Ray *ray, const Hit *hit, bool want_uv,
         n = g = negated(d);                    /* the tip of a cone: any normal will do */
     out->normal = normalized(n);
     out->geometric = same_point(n, g) ? out->normal : normalized(g);
-    if (!place->identity) {
-        Vec3 across = affine_normal(place, out->geometric);
-        double world_error = SURFACE_ERROR * magnitude(ray->o, ray->d, hit->t), error = out->error / length(across);
-        out->error = error > world_error ? error : world_error;        /* planes a apart become planes a / |n'| apart */
-        out->normal = same_point(n, g) ? normalized(across) : normalized(affine_normal(place, out->normal));
-        out->geometric = normalized(across);
+    /* The same arithmetic with and without a place: one that only scales by a power of two must change no bit. */
+    bool same = same_point(n, g);
+    Vec3 across = affine_normal(place, out->geometric);
+    double world_error = SURFACE_ERROR * magnitude(ray->o, ray->d, hit->t), error = out->error / length(across);
+    out->error = error > world_error ? error : world_error;    /* planes a apart become planes a / |n'| apart */
+    out->geometric = normalized(across);
+    out->normal = same ? out->geometric : normalized(affine_normal(place, out->normal));
+    if (!place->identity)
         out->p = same_point(out->p, local) ? ray_at(ray, hit->t) : affine_point(place, out->p);
-    }
     if ((prim->flags & PRIM_INVERSE) && !(prim->ops->flags & SHAPE_NORMAL_STAYS))
         out->normal = negated(out->normal);
     out->back = dot(out->normal, ray->d) > 0;

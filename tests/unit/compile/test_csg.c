@@ -145,8 +145,16 @@ static void scaling_by_powers_of_two_scales_hits_exactly(void **state)
                 Hit x, y;
                 bool hit = world_nearest(w, &ray, 0, &x);
                 assert_int_equal(hit, world_nearest(v, &ray, 0, &y));
-                if (hit)
-                    assert_true(x.t == y.t && x.prim == y.prim && x.part == y.part);
+                if (!hit)
+                    continue;
+                assert_true(x.t == y.t && x.prim == y.prim && x.part == y.part);
+                Surface one_surface, other_surface;
+                world_surface(w, &ray, &x, false, &one_surface);
+                world_surface(v, &ray, &y, false, &other_surface);
+                assert_memory_equal(&one_surface.p, &other_surface.p, sizeof(Vec3));
+                assert_memory_equal(&one_surface.normal, &other_surface.normal, sizeof(Vec3));
+                assert_memory_equal(&one_surface.geometric, &other_surface.geometric, sizeof(Vec3));
+                assert_true(one_surface.error == other_surface.error);
             }
             arena_free(&a);
         }
@@ -169,7 +177,8 @@ static void of_equal_hits_the_first_object_and_the_last_child_win(void **state)
     arena_init(&a);
     const Object *box[2] = { block(&a, vec3(-1, -1, -1), vec3(1, 1, 1)), block(&a, vec3(-1, -1, -1), vec3(1, 1, 2)) };
     World *w = world_of(&a, 2, box, "bvh");
-    assert_true(w->prim[nearest(w, vec3(0, 0, -5), vec3(0, 0, 1)).prim].data != w->prim[nearest(w, vec3(0, 0, 5), vec3(0, 0, -1)).prim].data);
+    const void *in_front = w->prim[nearest(w, vec3(0, 0, -5), vec3(0, 0, 1)).prim].data;
+    assert_true(in_front != w->prim[nearest(w, vec3(0, 0, 5), vec3(0, 0, -1)).prim].data);
     assert_int_equal(nearest(w, vec3(0, 0, -5), vec3(0, 0, 1)).prim, 0);
     static const ObjectKind kinds[] = { OBJECT_UNION, OBJECT_INTERSECTION };
     for (int i = 0; i < 2; i++) {

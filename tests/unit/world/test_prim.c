@@ -106,8 +106,8 @@ static void flags_hide_from_the_rays_they_name(void **state)
                                   OBJECT_NO_SPLIT_UNION);
     World *w = world_of(&a, 1, &later, "bvh");
     assert_true(seen(w, PRIM_NO_IMAGE) && !seen(w, PRIM_NO_IMAGE | PRIM_NO_IMAGE_LATER) && seen(w, PRIM_NO_SHADOW));
-    const Object *all = flagged(&a, combined2(&a, OBJECT_UNION, flagged(&a, one, OBJECT_NO_SHADOW), flagged(&a, clear, OBJECT_NO_SHADOW)),
-                                OBJECT_NO_SPLIT_UNION);
+    const Object *pair = combined2(&a, OBJECT_UNION, flagged(&a, one, OBJECT_NO_SHADOW), flagged(&a, clear, OBJECT_NO_SHADOW));
+    const Object *all = flagged(&a, pair, OBJECT_NO_SPLIT_UNION);
     w = world_of(&a, 1, &all, "bvh");
     assert_false(seen(w, PRIM_NO_SHADOW));
     arena_free(&a);
