@@ -10,3 +10,4 @@ sphere { <-1.8, 0.8, 0>, 0.8 texture { average texture_map { [1 Turned] [1 Ridge
 sphere { <0, 0.8, 0>, 0.8 texture { gradient x texture_map { [0 Ridges] [1 Turned] } translate -1 scale 2 } }
 box { <1.1, 0, -0.6>, <2.5, 1.4, 0.6>
   texture { gradient y texture_map { [0 pigment { rgb <1, 0.8, 0.4> } normal { bumps 0.6 scale 0.4 }] [1 checker texture { Ridges } texture { Ridges } scale <0.6, 1.1, 1.8>] } scale 1.4 no_bump_scale } rotate 10*y }
+sphere { <-0.9, 0.4, -1.6>, 0.4 pigment { rgb 0.9 } normal { gradient x normal_map { [0.2 gradient z normal_map { [0.8 bumps 1] [0.9 dents 1] }] [0.8 wrinkles 1] } scale 0.5 no_bump_scale } }

@@ -192,7 +192,9 @@ static Vec3 perturb(const Normal *normal, const Affine *place, Vec3 p, Vec3 n, b
     const WarpChain *chain = &normal->pattern->chain;
     n = carry_in(place, chain, n, keep_length);
     n = inside_chain(normal, pattern_point(normal->pattern, p), n, keep_length, at);
-    return carry_out(place, chain, n, keep_length);
+    n = carry_out(place, chain, n, keep_length);
+    /* POV: maps and lists of normals give unit vectors whatever no_bump_scale says; averages do not. */
+    return keep_length && normal->kind == NORMAL_PATTERN && normal->map.kind == MAP_NORMAL ? normalized(n) : n;
 }
 
 static const TextureContext nowhere = { .quality = 9 };

@@ -139,7 +139,7 @@ Colour shade_hit(Tracer *t, const Path *path, const Hit *hit, int level);
 
 /* secondary.c: rays that leave a surface. */
 Vec3 reflected(Vec3 d, Vec3 n, Vec3 raw);      /* never below the surface that `raw` stands on */
-Colour shade_reflect(const Shade *s, const Polish *polish, double weight, bool alpha);     /* iridescent, not weighed */
+Colour shade_reflect(const Shade *s, const Polish *polish, double weight);     /* iridescent, not weighed */
 /* Adds what passes through the surface to sum; returns whether all of it is reflected. top: of the top layer. */
 bool shade_transmit(const Shade *s, const Polish *top, Rgb filter, bool filtered, double through, Colour *sum);
 

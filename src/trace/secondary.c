@@ -14,13 +14,13 @@ Vec3 reflected(Vec3 d, Vec3 n, Vec3 raw)
     return normalized(r);
 }
 
-Colour shade_reflect(const Shade *s, const Polish *polish, double weight, bool alpha)
+Colour shade_reflect(const Shade *s, const Polish *polish, double weight)
 {
     Vec3 d = reflected(s->path->d, polish->n, s->surface->normal);
     Path path = {
         .o = surface_offset(s->surface, d), .d = d, .reach = INFINITY, .in = s->path->in, .weight = weight,
-        .wavelength = s->path->wavelength, .ticket = s->path->ticket, .level = s->level, .alpha = alpha,
-        .skip = PRIM_NO_REFLECTION | (s->path->skip & PRIM_NO_RADIOSITY)
+        .wavelength = s->path->wavelength, .ticket = s->path->ticket, .level = s->level,
+        .skip = PRIM_NO_REFLECTION | (s->path->skip & PRIM_NO_RADIOSITY)   /* and no alpha: mirrors see the background opaque */
     };
     Colour c = trace_path(s->t, &path);
     if (!(polish->finish->irid > 0))
@@ -86,7 +86,7 @@ static Colour bent(const Shade *s, const Crossing *c, const Polish *top, double 
     double rest = 1 + ratio * ratio * (k * k - 1);
     *total = rest < 0;
     if (rest < 0)
-        return shade_reflect(s, top, weight, s->path->alpha);
+        return shade_reflect(s, top, weight);
     if (dot(n, d) > 0)                         /* POV: not before: what is mirrored knows a normal that points away */
         n = negated(n);
     Path path = passed_on(s, c, add(scaled(d, ratio), scaled(n, ratio * k - sqrt(rest))), weight);

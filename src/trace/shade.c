@@ -73,7 +73,7 @@ static double mirror_weight(const Finish *f, Rgb share)
 
 static Rgb mirror_light(const Shade *s, const Mirror *m)
 {
-    Rgb seen = rgb_of(shade_reflect(s, &m->polish, m->weight, false));
+    Rgb seen = rgb_of(shade_reflect(s, &m->polish, m->weight));
     float e = m->polish.finish->reflection_exponent;
     if (e != 1 && e != 0)
         seen = rgb(powf(seen.r, 1 / e), powf(seen.g, 1 / e), powf(seen.b, 1 / e));
