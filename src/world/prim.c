@@ -454,11 +454,24 @@ static bool leaf_around(void *user, uint32_t i, double *t_max)
     return false;
 }
 
+/* POV: who lies outside the box of a body is not in it, though its inside may reach further: a disc's, an inverse sphere's,
+ * that of a clipped plane. */
+static bool boxed_around(const World *w, uint32_t item, Vec3 p)
+{
+    if (!is_node(item))
+        return bounds_contain(w->box[item], p);
+    const CsgNode *node = &w->csg[~item];
+    for (uint32_t i = node->first_prim; i < node->first_prim + node->n_prims; i++)
+        if (!(w->prim[i].flags & PRIM_HELPER) && bounds_contain(w->box[i], p))
+            return true;
+    return false;
+}
+
 uint32_t world_interiors_at(const World *w, Vec3 p, uint32_t *interior, uint32_t max)
 {
     Bodies b = { .world = w, .p = p };
     for (uint32_t i = 0; i < w->n_bodies; i++)
-        if (item_inside(w, unclipped(w, w->body[i]), p))
+        if (boxed_around(w, w->body[i], p) && item_inside(w, unclipped(w, w->body[i]), p))
             add_body(&b, w->body[i]);
     if (w->n_accel_prims > 0)
         w->accel_ops->around(w->accel, p, leaf_around, &b);
