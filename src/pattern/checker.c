@@ -11,9 +11,10 @@ static const MapEntry six_map[] = {
     MAP_RGB(0, 1, 0, 0), MAP_RGB(1, 0, 1, 0), MAP_RGB(2, 0, 0, 1), MAP_RGB(3, 1, 1, 0), MAP_RGB(4, 0, 1, 1), MAP_RGB(5, 1, 0, 1),
 };
 
+/* Of a whole number; beyond 2^62 all are even. */
 static bool is_odd(double whole)
 {
-    return fmod(whole, 2) != 0;
+    return fabs(whole) < 0x1p62 && ((long long)whole & 1) != 0;
 }
 
 /* What is left of x above a multiple of n: 0 <= remainder < n. */

@@ -2,8 +2,20 @@
 #include "render/sampler.h"
 
 #include "texture/texture.h"
+#include "world/shaft.h"
 
 static const Colour NOTHING = { 0, 0, 0, 0, 1 };       /* where no ray goes */
+
+/* With focal blur the eye moves within the aperture: mostly in the same bodies. */
+static bool bodies_differ(const Sampling *s)
+{
+    const CameraDef *def = s->camera.def;
+    if (s->blur == NULL || s->mesh != NULL)
+        return camera_moves(def);
+    double unit = s->world->unit, reach = def->aperture * (0.5 + 2 * s->blur->jitter) * unit;
+    Vec3 eye = scaled(def->location, unit), half = vec3(reach, reach, reach);
+    return !world_same_bodies(s->world, eye, (Bounds){ sub(eye, half), add(eye, half) });
+}
 
 Sampling *sampling_new(Arena *arena, const World *w, const RenderOptions *options)
 {
@@ -13,7 +25,10 @@ Sampling *sampling_new(Arena *arena, const World *w, const RenderOptions *option
     s->camera = camera_new(&w->camera, options->width, options->height);
     s->mesh = mesh_camera_new(arena, w, options->width, options->height);
     s->blur = blur_new(arena, &w->camera);
-    s->moves = camera_moves(&w->camera);
+    s->moves = bodies_differ(s);
+    s->across = normalized(cross(w->camera.up, w->camera.direction));
+    s->down = normalized(cross(w->camera.direction, s->across));
+    s->focus = w->camera.focal_distance / length(w->camera.direction);
     position_hash_fill(&s->hash);
     return s;
 }
@@ -89,11 +104,9 @@ static bool blur_ray(const Sampling *all, double x, double y, int seed, uint32_t
     Vec2 k = position_jitter(&all->hash, x + 0.5, y - 0.5);
     double ex = def->aperture / 2 * (blur->place[m].u + 2 * blur->jitter * k.u);
     double ey = def->aperture / 2 * (blur->place[m].v + 2 * blur->jitter * k.v);
-    Vec3 across = normalized(cross(def->up, def->direction));
-    Vec3 down = normalized(cross(def->direction, across));
-    Vec3 e = sub(scaled(across, ex), scaled(down, ey));
+    Vec3 e = sub(scaled(all->across, ex), scaled(all->down, ey));
     ray->o = add(def->location, e);
-    ray->d = sub(scaled(ray->d, def->focal_distance / length(def->direction)), e);
+    ray->d = sub(scaled(ray->d, all->focus), e);
     return true;
 }
 

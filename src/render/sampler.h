@@ -16,6 +16,8 @@ typedef struct Sampling {
     const Blur *blur;                          /* NULL: none */
     const MeshCamera *mesh;                    /* NULL: another kind of camera */
     PositionHash hash;
+    Vec3 across, down;                         /* of the aperture */
+    double focus;                              /* distance of what is sharp, in lengths of the camera's direction */
     bool moves;                                /* the bodies around the eye differ from ray to ray */
 } Sampling;
 

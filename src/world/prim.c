@@ -213,12 +213,54 @@ static bool test_item(void *user, uint32_t i, double *t_max)
     return search->stop;
 }
 
+/* ---- few prims ---- */
+
+/* Up to so many prims are tried box by box: setting out on a walk through the tree costs as much. */
+enum { FEW = 6 };
+
+/* Beyond the rounding of the three operations that make a distance. */
+static const double LOOSE = 1 + 0x1p-50;
+
+static void clip_slab(double o, double inverse, double lo, double hi, double *near, double *far)
+{
+    double a = (lo - o) * inverse, b = (hi - o) * inverse;
+    double enter = inverse > 0 ? a : b, leave = inverse > 0 ? b : a;
+    *near = enter > *near ? enter : *near;     /* NaN, of a ray in the plane of a side, does not count */
+    *far = leave < *far ? leave : *far;
+}
+
+/* May the ray meet the box in its range? */
+static bool box_ahead(const Search *search, Vec3 inverse, const Bounds *box)
+{
+    const Ray *ray = search->ray;
+    double near = search->sink.t_min, far = search->sink.limit;
+    clip_slab(ray->o.x, inverse.x, box->lo.x, box->hi.x, &near, &far);
+    clip_slab(ray->o.y, inverse.y, box->lo.y, box->hi.y, &near, &far);
+    clip_slab(ray->o.z, inverse.z, box->lo.z, box->hi.z, &near, &far);
+    return near <= far * LOOSE;
+}
+
+static void few_prims(Search *search)
+{
+    const World *w = search->world;
+    Vec3 d = search->ray->d, inverse = vec3(1 / d.x, 1 / d.y, 1 / d.z);
+    for (uint32_t i = 0; i < w->n_accel_prims && !search->stop; i++) {
+        uint32_t prim = w->accel_prim[i];
+        if (box_ahead(search, inverse, &w->box[prim]))
+            prim_test(search, prim);
+    }
+}
+
 static void all_prims(Search *search)
 {
     const World *w = search->world;
     for (uint32_t i = 0; i < w->n_unbounded && !search->stop; i++)
         prim_test(search, w->unbounded[i]);
-    if (w->n_accel_prims > 0 && !search->stop)
+    if (search->stop || w->n_accel_prims == 0)
+        return;
+    if (w->n_accel_prims <= FEW)
+        few_prims(search);
+    else
         w->accel_ops->walk(w->accel, search->ray, &search->sink.limit, test_item, search);
 }
 

@@ -63,3 +63,15 @@ void world_shaft(const World *w, Vec3 o, Bounds to, uint32_t skip, Shaft *out)
     if (w->n_accel_prims > 0)
         w->accel_ops->between(w->accel, o, to, keep_item, &g);
 }
+
+/* Nothing changes on the way if no surface lies in between. Bodies that are set operations of their own may be clipped: inside
+ * beyond their surface. */
+bool world_same_bodies(const World *w, Vec3 o, Bounds box)
+{
+    for (uint32_t i = 0; i < w->n_bodies; i++)
+        if (w->body[i] >= w->n_prims)
+            return false;
+    Shaft shaft;
+    world_shaft(w, o, box, 0, &shaft);
+    return shaft.n == 0;
+}

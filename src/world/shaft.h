@@ -18,4 +18,7 @@ void world_shaft(const World *w, Vec3 o, Bounds to, uint32_t skip, Shaft *out);
 /* As world_each_hit, for a ray within a shaft that is not crowded. */
 bool shaft_each_hit(const World *w, const Shaft *shaft, const Ray *ray, HitVisit *visit, void *user);
 
+/* Do the bodies that contain o contain all of the box, too? False if that is not easily said. */
+bool world_same_bodies(const World *w, Vec3 o, Bounds box);
+
 #endif
