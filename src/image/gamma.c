@@ -124,8 +124,11 @@ static void find_steps(const Quantising *q, bool is_alpha, int max, Steps *s)
     }
 }
 
-static uint16_t step_of(const Steps *s, float v)
+/* guess: a code that may be right, as that of the pixel before often is. */
+static uint16_t step_of(const Steps *s, float v, uint16_t guess)
 {
+    if (v >= s->at[guess] && !(v >= s->at[guess + 1]))
+        return guess;
     int k = 0;
     for (int half = 128; half > 0; half /= 2)
         k += v >= s->at[k + half] ? half : 0;
@@ -142,12 +145,13 @@ static void quantise_plain(const float *rgba, size_t n_pixels, const Quantising 
         find_steps(q, false, max, &colour);
         find_steps(q, true, max, &alpha);
     }
+    uint16_t last[4] = { 0 };
     for (size_t p = 0; p < n_pixels; p++) {
         double v[4];
         channels_of(q, rgba + 4 * p, v);
         for (int i = 0; i < n; i++)
-            *out++ = by_steps ? step_of(i < n_colours ? &colour : &alpha, (float)v[i])
-                              : code_of(encoded(q, i >= n_colours, (double)(float)v[i]), max);
+            *out++ = last[i] = by_steps ? step_of(i < n_colours ? &colour : &alpha, (float)v[i], last[i])
+                                        : code_of(encoded(q, i >= n_colours, (double)(float)v[i]), max);
     }
 }
 

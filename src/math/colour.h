@@ -16,8 +16,12 @@ static inline Rgb rgb_sub(Rgb a, Rgb b) { return (Rgb){ a.r - b.r, a.g - b.g, a.
 static inline Rgb rgb_mul(Rgb a, Rgb b) { return (Rgb){ a.r * b.r, a.g * b.g, a.b * b.b }; }
 static inline Rgb rgb_scaled(Rgb a, float s) { return (Rgb){ a.r * s, a.g * s, a.b * s }; }
 static inline float rgb_greyness(Rgb c) { return 0.297f * c.r + 0.589f * c.g + 0.114f * c.b; }
-static inline float rgb_max(Rgb c) { return fmaxf(c.r, fmaxf(c.g, c.b)); }
-static inline float rgb_max_abs(Rgb c) { return fmaxf(fabsf(c.r), fmaxf(fabsf(c.g), fabsf(c.b))); }
+static inline float rgb_max(Rgb c)              /* fmaxf would be a call */
+{
+    float most = c.g > c.b ? c.g : c.b;
+    return most > c.r ? most : c.r;
+}
+static inline float rgb_max_abs(Rgb c) { return rgb_max((Rgb){ fabsf(c.r), fabsf(c.g), fabsf(c.b) }); }
 static inline bool rgb_is_zero(Rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
 static inline Colour colour_add(Colour a, Colour b)

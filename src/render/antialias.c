@@ -55,9 +55,9 @@ static double seen(const Antialias *a, float value)
 static void pixel_set(const Antialias *a, Pixel *p, Colour c)
 {
     p->colour = c;
-    p->seen[0] = seen(a, c.r);
-    p->seen[1] = seen(a, c.g);
-    p->seen[2] = seen(a, c.b);
+    p->seen[0] = seen(a, c.r);                 /* a power each: greys need one */
+    p->seen[1] = c.g == c.r ? p->seen[0] : seen(a, c.g);
+    p->seen[2] = c.b == c.g ? p->seen[1] : seen(a, c.b);
 }
 
 static bool differ(const Antialias *a, const Pixel *p, const Pixel *q)

@@ -158,7 +158,8 @@ static void shade_layer(Stack *k, const Texture *layer)
     }
     if (found)
         darken_filter(k, f, c, share);
-    k->through = fmin(1, fabs((double)rgb_greyness(k->filter)));
+    double grey = fabs((double)rgb_greyness(k->filter));
+    k->through = grey < 1 ? grey : 1;
 }
 
 static bool same_normal(Vec3 a, Vec3 b)
