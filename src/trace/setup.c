@@ -135,7 +135,7 @@ static Colour background_of(const World *w, bool alpha, bool legacy)
 {
     Colour b = w->globals.background;
     if (!w->globals.has_background)
-        return (Colour){ 0, 0, 0, 0, 1 };
+        b = (Colour){ 0, 0, 0, 0, 1 };
     if (legacy)
         return (Colour){ b.r, b.g, b.b, 0, alpha ? 1 : 0 };
     if (alpha)
