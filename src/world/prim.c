@@ -489,6 +489,8 @@ static bool leaf_around(void *user, uint32_t i, double *t_max)
     Bodies *b = user;
     const World *w = b->world;
     uint32_t item = w->accel_prim[i];
+    if (!bounds_contain(w->box[item], b->p))
+        return false;                          /* accelerators may offer more than they have to */
     for (uint32_t c = w->prim[item].csg; c != 0; c = w->csg[c].parent)
         item = ~c;
     if (item_inside(w, item, b->p))
