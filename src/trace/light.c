@@ -106,10 +106,7 @@ static double specular(const Finish *f, Vec3 d, Vec3 n, Vec3 l)
     double k = size > 0 ? dot(half, n) / size : 0;
     if (k <= 0)
         return 0;
-    double power = f->roughness != 0 ? 1 / (double)f->roughness : 0;
-    if ((1 - k) * power > 128)                 /* k^power < exp(-128) = 2^-184: nothing in single precision */
-        return 0;
-    return (double)f->specular * pow(k, power);
+    return (double)f->specular * pow(k, f->roughness != 0 ? 1 / (double)f->roughness : 0);
 }
 
 static double diffuse_strength(const Layer *layer, bool behind)
