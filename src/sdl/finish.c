@@ -23,8 +23,7 @@ static void reflection_block(Parser *p, Finish *f)
     bool two = parse_at_number(p);
     if (two)
         f->reflection_max = parse_rgb(p);
-    f->reflection_falloff = 1;
-    f->reflection_fresnel = false;
+    bool fresnel = false;                      /* POV: what an earlier reflection said of fresnel, falloff and the rest stays */
     for (;;) {
         switch (parse_peek(p)) {
         case KW_FRESNEL: {
@@ -32,7 +31,7 @@ static void reflection_block(Parser *p, Finish *f)
             double on = parse_optional_float(p, 1);
             if (on != 0 && on != 1)
                 parse_fail(p, "fresnel must be true or false");
-            f->reflection_fresnel = on == 1;
+            f->reflection_fresnel = fresnel = on == 1;
             break;
         }
         case KW_FALLOFF: parse_skip(p); f->reflection_falloff = number(p); break;
@@ -42,7 +41,7 @@ static void reflection_block(Parser *p, Finish *f)
             f->reflection_metallic = parse_at_float(p) ? number(p) : 1;
             break;
         default:
-            if (f->reflection_fresnel && !two)
+            if (fresnel && !two)
                 f->reflection_min = rgb(0, 0, 0);
             block_close(p, "reflection");
             return;
