@@ -161,29 +161,31 @@ _Noreturn static void land(Diag *d, int exit_code)
     longjmp(d->landing, 1);
 }
 
+/* A failure while reporting a failure: only the first is told. */
+static void report_failure(Diag *d, Loc loc, const char *format, va_list args)
+{
+    if (d->failing)
+        return;
+    d->failing = true;
+    report(d, DIAG_ERROR, loc, format, args);
+    d->failing = false;
+}
+
 void fail(Diag *d, Loc loc, const char *format, ...)
 {
-    if (!d->failing) {                         /* a failure while reporting a failure: only the first is told */
-        d->failing = true;
-        va_list args;
-        va_start(args, format);
-        report(d, DIAG_ERROR, loc, format, args);
-        va_end(args);
-        d->failing = false;
-    }
+    va_list args;
+    va_start(args, format);
+    report_failure(d, loc, format, args);
+    va_end(args);
     land(d, 1);
 }
 
 void fail_io(Diag *d, Loc loc, const char *format, ...)
 {
-    if (!d->failing) {
-        d->failing = true;
-        va_list args;
-        va_start(args, format);
-        report(d, DIAG_ERROR, loc, format, args);
-        va_end(args);
-        d->failing = false;
-    }
+    va_list args;
+    va_start(args, format);
+    report_failure(d, loc, format, args);
+    va_end(args);
     land(d, 3);
 }
 

@@ -172,7 +172,7 @@ static FuncNode get(const Reader *r, const char *text)
     for (int i = 0; i < r->n_names; i++)
         if (strcmp(r->name[i].text, text) == 0)
             return r->name[i].node;
-    assert(!"an unknown name in a formula");
+    assert(0 && "an unknown name in a formula");
     return 0;
 }
 

@@ -149,8 +149,8 @@ static void rays_enter_as_often_as_they_leave(void **state)
 /* ---- many parts: with a tree and without ---- */
 
 static const char *const crowds[] = {
-    "blob { threshold 0.4 #local R = seed(1); #for (I, 1, 150) sphere { <rand(R)-0.5,rand(R)-0.5,rand(R)-0.5>*2, 0.3, 1 } #end"
-    " cylinder { -x, x, 0.3, 0.7 } }",
+    ("blob { threshold 0.4 #local R = seed(1); #for (I, 1, 150) sphere { <rand(R)-0.5,rand(R)-0.5,rand(R)-0.5>*2, 0.3, 1 } #end "
+        "cylinder { -x, x, 0.3, 0.7 } }"),
     "sphere_sweep { linear_spline 60 #for (I, 0, 59) , <sin(I*0.4), I*0.03-0.9, cos(I*0.4)>, 0.12+0.05*sin(I) #end }",
     "sphere_sweep { b_spline 60 #for (I, 0, 59) , <sin(I*0.4), I*0.03-0.9, cos(I*0.4)>, 0.12+0.05*sin(I) #end }",
     "prism { linear_spline -0.5, 0.5, 61 #for (I, 0, 60) , <sin(I*pi/30), cos(I*pi/30)>*(0.8+0.2*sin(I*pi/3)) #end }",
