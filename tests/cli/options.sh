@@ -56,4 +56,4 @@ check "diff writes a heat map" test -s heat.png
 expect "diff of different sizes" 2 "size" bash -c "'$whit' good.pov +W20 +H20 +Osmall; '$whit' diff good.png small.png"
 expect "diff of something missing" 2 "nothing.png" "$whit" diff good.png nothing.png
 expect "diff as JSON" 0 '"verdict":"exact"' "$whit" diff good.png good.png --json
-expect "a loop without end is interrupted, and says where" 130 "endless.pov:1:" bash -c "echo '#while (1) #end' >endless.pov; timeout -s INT 1 '$whit' endless.pov; c=\$?; [ \$c -eq 124 ] && c=130; exit \$c"
+expect "a loop without end is interrupted, and says where" 130 "endless.pov:1:" bash -c "echo '#while (1) #end' >endless.pov; timeout --foreground -s INT 1 '$whit' endless.pov; c=\$?; [ \$c -eq 124 ] && c=130; exit \$c"
