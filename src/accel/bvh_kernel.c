@@ -123,10 +123,25 @@ bool ISA_NAME(bvh_walk)(const Bvh *b, const Ray *ray, double *t_max, AccelVisit 
     }
 }
 
+/* The children of the mask: nodes go on the stack, items are offered without a range. */
+static inline bool open_children(const Bvh *b, const BvhNode *node, uint32_t mask, uint32_t *stack, uint32_t *n,
+                                 AccelVisit *visit, void *user)
+{
+    double t_max = INFINITY;
+    for (; mask != 0; mask &= mask - 1) {
+        uint32_t i = (uint32_t)__builtin_ctz(mask);
+        if (node->count[i] == 0)
+            stack[(*n)++] = node->child[i];
+        for (uint32_t k = 0; k < node->count[i]; k++)
+            if (visit(user, b->item[node->child[i] + k], &t_max))
+                return true;
+    }
+    return false;
+}
+
 bool ISA_NAME(bvh_around)(const Bvh *b, Vec3 p, AccelVisit *visit, void *user)
 {
     uint32_t stack[BVH_STACK];
-    double t_max = INFINITY;
     f8 below[3], above[3];
     for (int axis = 0; axis < 3; axis++) {
         below[axis] = f8_set(under(vec3_at(p, axis)));
@@ -139,14 +154,8 @@ bool ISA_NAME(bvh_around)(const Bvh *b, Vec3 p, AccelVisit *visit, void *user)
         uint32_t mask = node->used;
         for (int axis = 0; axis < 3; axis++)
             mask &= f8_le(f8_load(node->side[axis]), above[axis]) & f8_le(below[axis], f8_load(node->side[axis + 3]));
-        for (; mask != 0; mask &= mask - 1) {
-            uint32_t i = (uint32_t)__builtin_ctz(mask);
-            if (node->count[i] == 0)
-                stack[n++] = node->child[i];
-            for (uint32_t k = 0; k < node->count[i]; k++)
-                if (visit(user, b->item[node->child[i] + k], &t_max))
-                    return true;
-        }
+        if (open_children(b, node, mask, stack, &n, visit, user))
+            return true;
     }
     return false;
 }
@@ -181,7 +190,6 @@ static inline void clip(f8 *near, f8 *far, const Side *side, const float *at)
 bool ISA_NAME(bvh_between)(const Bvh *b, Vec3 o, Bounds to, AccelVisit *visit, void *user)
 {
     uint32_t stack[BVH_STACK];
-    double t_max = INFINITY;
     Side low[3], high[3];
     for (int axis = 0; axis < 3; axis++) {
         double from = vec3_at(o, axis);
@@ -197,14 +205,8 @@ bool ISA_NAME(bvh_between)(const Bvh *b, Vec3 o, Bounds to, AccelVisit *visit, v
             clip(&near, &far, &low[axis], node->side[axis + 3]);
             clip(&near, &far, &high[axis], node->side[axis]);
         }
-        for (uint32_t mask = f8_le(near, far) & node->used; mask != 0; mask &= mask - 1) {
-            uint32_t i = (uint32_t)__builtin_ctz(mask);
-            if (node->count[i] == 0)
-                stack[n++] = node->child[i];
-            for (uint32_t k = 0; k < node->count[i]; k++)
-                if (visit(user, b->item[node->child[i] + k], &t_max))
-                    return true;
-        }
+        if (open_children(b, node, f8_le(near, far) & node->used, stack, &n, visit, user))
+            return true;
     }
     return false;
 }

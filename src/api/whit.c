@@ -4,9 +4,9 @@
 #include <setjmp.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/file.h"
+#include "base/thread.h"
 #include "compile/compile.h"
 #include "image/compare.h"
 #include "pattern/pattern.h"
@@ -149,7 +149,7 @@ static SdlOptions sdl_options(Whit *w, Str path)
         .library_path = strings(a, o->library_path, o->n_library_paths), .n_library_paths = (uint32_t)o->n_library_paths,
         .allow_read = strings(a, o->allow_read, o->n_allow_read), .n_allow_read = (uint32_t)o->n_allow_read,
         .allow_write = strings(a, o->allow_write, o->n_allow_write), .n_allow_write = (uint32_t)o->n_allow_write,
-        .strict = o->strict, .interrupted = &w->interrupted, .input_name = name,
+        .strict = o->strict, .stop = &w->interrupted, .input_name = name,
     };
 }
 
@@ -288,9 +288,8 @@ static bool tell_progress(void *user, int done, int all)
 bool whit_render(Whit *w, WhitProgress *progress, void *user)
 {
     const WhitOptions *o = &w->options;
-    long processors = sysconf(_SC_NPROCESSORS_ONLN);
     RenderOptions r = {
-        .width = o->width, .height = o->height, .threads = o->threads > 0 ? o->threads : processors > 0 ? (int)processors : 1,
+        .width = o->width, .height = o->height, .threads = o->threads > 0 ? o->threads : thread_processors(),
         .quality = o->quality, .antialias = o->antialias,
         .threshold = o->antialias_threshold > 0 ? o->antialias_threshold : 0.3,
         .depth = o->antialias_depth > 0 ? o->antialias_depth : 3,

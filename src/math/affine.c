@@ -81,16 +81,6 @@ Affine affine_rotate(Vec3 degrees)
     return all;
 }
 
-/* Rodrigues' formula, for row vectors. */
-Affine affine_rotate_axis(Vec3 axis, double radians)
-{
-    Vec3 a = normalized(axis);
-    double s = sin(radians), c = cos(radians), k = 1 - c;
-    return rotation((const double[3][3]){ { a.x * a.x * k + c, a.x * a.y * k + a.z * s, a.x * a.z * k - a.y * s },
-                                          { a.x * a.y * k - a.z * s, a.y * a.y * k + c, a.y * a.z * k + a.x * s },
-                                          { a.x * a.z * k + a.y * s, a.y * a.z * k - a.x * s, a.z * a.z * k + c } });
-}
-
 static Vec3 row(const double m[4][3], int i)
 {
     return vec3(m[i][0], m[i][1], m[i][2]);

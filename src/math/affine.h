@@ -18,7 +18,6 @@ Affine affine_identity(void);
 Affine affine_translate(Vec3 by);
 Affine affine_scale(Vec3 by);                  /* components must not be 0 */
 Affine affine_rotate(Vec3 degrees);            /* about x, then y, then z; left-handed as POV-Ray's */
-Affine affine_rotate_axis(Vec3 axis, double radians);
 Affine affine_matrix(const double rows[12]);   /* inverse by cofactors; a singular one is mended as 08-shapes 2.1 says */
 Affine affine_frame(Vec3 origin, Vec3 axis, double radius, double length);   /* K(o, a, r, L) of 08-shapes 2.2 */
 Affine affine_then(Affine first, Affine second);

@@ -390,16 +390,8 @@ static void run_break(Parser *p, const Token *t)
     }
 }
 
-/* Every loop turns on directives, and endless recursion ends by itself: asking here is enough. */
-static void check_interrupt(Parser *p, Loc loc)
-{
-    if (p->options->interrupted != NULL && *p->options->interrupted)
-        fail(p->diag, loc, "Interrupted.");
-}
-
 bool flow_directive(Parser *p, const Token *t)
 {
-    check_interrupt(p, t->loc);
     switch (t->directive) {
     case KW_IF: case KW_IFDEF: case KW_IFNDEF: run_if(p, t); return true;
     case KW_SWITCH: run_switch(p, t); return true;

@@ -1,4 +1,4 @@
-/* global.c - global_settings, background, fog, rainbow and sky_sphere (01-language, sections 20 and 32). */
+/* global.c - global_settings, with radiosity, photons and subsurface in it (01-language, section 20). */
 #include "sdl/blocks.h"
 
 #include "sdl/parser.h"

@@ -30,9 +30,8 @@ typedef struct SdlOptions {
     const Str *allow_read;          uint32_t n_allow_read;
     const Str *allow_write;         uint32_t n_allow_write;
     bool strict;
-    const volatile int *interrupted;           /* NULL, or: parsing fails where it stands once this is not 0 */
     Str input_name;                            /* value of input_file_name */
-    const volatile int *stop;                  /* not 0: give up soon; NULL: never */
+    const volatile int *stop;                  /* NULL, or: parsing fails where it stands once this is not 0 */
 } SdlOptions;
 
 /* Parses `text` of the file `path`. The caller has set the landing of diag (diag_landing); mistakes jump there. */
