@@ -159,7 +159,8 @@ static bool simpler(FuncBuilder *b, FuncOp op, FuncNode x, FuncNode y, FuncNode 
 FuncNode func_binary(FuncBuilder *b, FuncOp op, FuncNode x, FuncNode y)
 {
     double u, v;
-    if (func_is_number(b, x, &u) & func_is_number(b, y, &v))
+    bool known_u = func_is_number(b, x, &u), known_v = func_is_number(b, y, &v);
+    if (known_u && known_v)
         return func_number(b, code_fold(op, u, v, 0));
     bool commutes = op == FUNC_ADD || op == FUNC_MUL;
     if (commutes && (func_is_number(b, x, &u) || (!func_is_number(b, y, &v) && x > y))) {
