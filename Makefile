@@ -30,6 +30,8 @@ endef
 $(eval $(call optional,PNG,libpng))
 $(eval $(call optional,JPEG,libjpeg))
 $(eval $(call optional,TIFF,libtiff-4))
+$(eval $(call optional,GIF,libgif))
+$(eval $(call optional,FREETYPE,freetype2))
 $(eval $(call optional,FONTCONFIG,fontconfig))
 
 # *_kernel.c is built once per instruction set, each object exporting names with the set pasted on (base/cpu.h).
@@ -111,18 +113,18 @@ bench: $(BUILD)/whit
 corpus: $(BUILD)/whit
 	@BUILD=$(BUILD) tests/corpus $(CORPUS)
 
-# The parser against libFuzzer (needs clang) for FUZZ_TIME seconds; findings and the grown corpus stay in build/fuzz/.
+# All that comes before the first ray against libFuzzer (needs clang) for FUZZ_TIME seconds; findings and the grown corpus stay in build/fuzz/.
 FUZZ_TIME ?= 60
 FUZZ := $(BUILD)/fuzz
 FUZZ_FLAGS := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined
 
 fuzz:
 	+@$(MAKE) --no-print-directory BUILD=$(FUZZ) CC=clang CFLAGS="$(FUZZ_FLAGS) -fsanitize=fuzzer-no-link -w" $(FUZZ)/libwhit.a
-	clang $(STD) $(FUZZ_FLAGS) -fsanitize=fuzzer -o $(FUZZ)/fuzz_parse tests/fuzz/fuzz_parse.c $(FUZZ)/libwhit.a $(LIBS)
+	clang $(STD) $(FUZZ_FLAGS) -fsanitize=fuzzer -o $(FUZZ)/fuzz_scene tests/fuzz/fuzz_scene.c $(FUZZ)/libwhit.a $(LIBS)
 	@mkdir -p $(FUZZ)/corpus $(FUZZ)/found $(FUZZ)/work
 	@tests/fuzz/make-seeds $(FUZZ)/seeds
 	@sed -n 's/^KEYWORD(\([a-z0-9_]*\),.*/"\1"/p' src/sdl/keyword.def > $(FUZZ)/words
-	cd $(FUZZ)/work && ../fuzz_parse -max_total_time=$(FUZZ_TIME) -timeout=10 -rss_limit_mb=2000 -max_len=8192 -dict=../words \
+	cd $(FUZZ)/work && ../fuzz_scene -max_total_time=$(FUZZ_TIME) -timeout=10 -rss_limit_mb=2000 -max_len=8192 -dict=../words \
 	    -artifact_prefix=../found/ ../corpus ../seeds
 
 clean:
