@@ -1,4 +1,4 @@
-/* gif.c - the first picture of a GIF: a palette and its own LZW decoder, so that no library is needed.
+/* gif.c - the first picture of a GIF, by giflib.
  *
  * POT files, the 16-bit potentials of Fractint, are GIFs twice as wide: upper bytes in the left half, lower ones in the right. */
 #include <stdlib.h>
@@ -6,172 +6,115 @@
 
 #include "image/codec.h"
 
-enum { GIF_CODES = 4096 };
-
 static bool probe(Str bytes)
 {
     return bytes.n >= 13 && memcmp(bytes.data, "GIF8", 4) == 0;
 }
 
-static void read_palette(ByteReader *r, Image *im, unsigned flags)
+#ifdef HAVE_GIF
+#include <gif_lib.h>
+
+enum { GIF_CODES = 4096 };                     /* a code stands for so many pixels at most */
+
+static int read_bytes(GifFileType *gif, GifByteType *to, int n)
 {
-    im->n_palette = 2u << (flags & 7);
-    for (uint32_t i = 0; i < im->n_palette; i++) {
-        for (int c = 0; c < 3; c++)
-            im->palette[i][c] = (uint8_t)read_u8(r);
-        im->palette[i][3] = 255;
-    }
+    ByteReader *from = gif->UserData;
+    size_t left = (size_t)(from->end - from->next), most = (size_t)n < left ? (size_t)n : left;
+    memcpy(to, from->next, most);
+    from->next += most;
+    return (int)most;
 }
 
-/* Skips sub-blocks up to the empty one. */
-static void skip_blocks(ByteReader *r)
+static bool gif_fail(const GifFileType *gif, char error[IMAGE_ERROR])
 {
-    for (unsigned n; (n = read_u8(r)) > 0 && !r->ended;)
-        read_skip(r, n);
+    if (gif->Error == D_GIF_ERR_READ_FAILED || gif->Error == D_GIF_ERR_EOF_TOO_SOON)
+        return codec_fail(error, "the file ends before its last pixel");
+    const char *why = GifErrorString(gif->Error);
+    return codec_fail(error, "damaged GIF: %s", why != NULL ? why : "its data make no sense");
 }
 
-/* Codes of growing width from a chain of sub-blocks. */
-typedef struct CodeReader {
-    ByteReader *from;
-    unsigned left_in_block, n_bits;
-    uint32_t bits;
-} CodeReader;
-
-static int next_code(CodeReader *c, unsigned width)
+/* Goes to the first picture; of the extensions on the way, one names the transparent entry of the palette. */
+static bool find_picture(GifFileType *gif, int *transparent, char error[IMAGE_ERROR])
 {
-    while (c->n_bits < width) {
-        if (c->left_in_block == 0) {
-            c->left_in_block = read_u8(c->from);
-            if (c->left_in_block == 0)
-                return -1;                     /* the terminator, or the end of the file */
+    GifRecordType type;
+    while (DGifGetRecordType(gif, &type) == GIF_OK) {
+        if (type == IMAGE_DESC_RECORD_TYPE)
+            return DGifGetImageDesc(gif) == GIF_OK || gif_fail(gif, error);
+        if (type != EXTENSION_RECORD_TYPE)
+            break;
+        int label;
+        GifByteType *data;
+        bool more = DGifGetExtension(gif, &label, &data) == GIF_OK;
+        while (more && data != NULL) {
+            if (label == GRAPHICS_EXT_FUNC_CODE && data[0] == 4 && (data[1] & 1))
+                *transparent = data[4];
+            more = DGifGetExtensionNext(gif, &data) == GIF_OK;
         }
-        c->left_in_block--;
-        c->bits |= (uint32_t)read_u8(c->from) << c->n_bits;
-        c->n_bits += 8;
-        if (c->from->ended)
-            return -1;
+        if (!more)
+            return gif_fail(gif, error);
     }
-    int code = (int)(c->bits & ((1u << width) - 1));
-    c->bits >>= width;
-    c->n_bits -= width;
-    return code;
+    return codec_fail(error, "there is no picture in this GIF file");
+}
+
+static bool take_palette(const GifFileType *gif, int transparent, Image *im, char error[IMAGE_ERROR])
+{
+    const ColorMapObject *map = gif->Image.ColorMap != NULL ? gif->Image.ColorMap : gif->SColorMap;
+    if (map == NULL || map->ColorCount < 1 || map->ColorCount > 256)
+        return codec_fail(error, "this GIF file has no palette");
+    im->n_palette = (uint32_t)map->ColorCount;
+    for (uint32_t i = 0; i < im->n_palette; i++) {
+        GifColorType c = map->Colors[i];
+        memcpy(im->palette[i], (uint8_t[4]){ c.Red, c.Green, c.Blue, 255 }, 4);
+    }
+    if (transparent >= 0 && (uint32_t)transparent < im->n_palette)
+        im->palette[transparent][3] = 0;
+    return true;
 }
 
 /* Rows of an interlaced picture come as every 8th from 0, every 8th from 4, every 4th from 2, every 2nd from 1. */
-static int row_after(int y, int height, int *pass)
+static bool read_rows(GifFileType *gif, uint8_t *pixels, char error[IMAGE_ERROR])
 {
     static const int first[] = { 0, 4, 2, 1 }, step[] = { 8, 8, 4, 2 };
-    if (*pass < 0)
-        return y + 1;
-    y += step[*pass];
-    while (y >= height && *pass < 3)
-        y = first[++*pass];
-    return y;
-}
-
-typedef struct Canvas {
-    uint8_t *pixels;
-    int width, height, x, y, pass;             /* pass -1: not interlaced */
-} Canvas;
-
-static void canvas_put(Canvas *c, uint8_t index)
-{
-    if (c->y >= c->height)
-        return;
-    c->pixels[(size_t)c->y * (size_t)c->width + (size_t)c->x] = index;
-    if (++c->x == c->width) {
-        c->x = 0;
-        c->y = row_after(c->y, c->height, &c->pass);
-    }
-}
-
-/* Every code is an earlier code and one more byte; its string is unrolled backwards. */
-static bool decode(ByteReader *r, Canvas *canvas, char error[IMAGE_ERROR])
-{
-    static const char damaged[] = "damaged GIF: the compressed data makes no sense";
-    uint16_t before[GIF_CODES];
-    uint8_t last[GIF_CODES], string[GIF_CODES + 1];
-    unsigned root = read_u8(r);
-    if (root < 1 || root > 8)
-        return codec_fail(error, damaged);
-    int clear = 1 << root, n = clear + 2, previous = -1;
-    uint8_t first = 0;
-    unsigned width = root + 1;
-    CodeReader codes = { .from = r };
-    while (canvas->y < canvas->height) {
-        int code = next_code(&codes, width);
-        if (code < 0 || code == clear + 1)
-            return codec_fail(error, "the file ends before its last pixel");
-        if (code == clear) {
-            n = clear + 2;
-            width = root + 1;
-            previous = -1;
-            continue;
-        }
-        if (code > n || (code == n && previous < 0))
-            return codec_fail(error, damaged);
-        int length = 0, c = code;
-        if (code == n) {                       /* the one that is just being made */
-            string[length++] = first;
-            c = previous;
-        }
-        for (; c >= clear; c = before[c])
-            string[length++] = last[c];
-        string[length++] = first = (uint8_t)c;
-        while (length > 0)
-            canvas_put(canvas, string[--length]);
-        if (previous >= 0 && n < GIF_CODES) {
-            before[n] = (uint16_t)previous;
-            last[n] = first;
-            if (++n == 1 << width && width < 12)
-                width++;
-        }
-        previous = code;
-    }
+    int width = gif->Image.Width, height = gif->Image.Height, passes = gif->Image.Interlace ? 4 : 1;
+    for (int pass = 0; pass < passes; pass++)
+        for (int y = first[pass]; y < height; y += passes > 1 ? step[pass] : 1)
+            if (DGifGetLine(gif, pixels + (size_t)y * (size_t)width, width) != GIF_OK)
+                return gif_fail(gif, error);
     return true;
+}
+
+static bool read_with(GifFileType *gif, Str bytes, Image *im, void *pixels, char error[IMAGE_ERROR])
+{
+    int transparent = -1;
+    if (!find_picture(gif, &transparent, error) ||
+        !codec_size(gif->Image.Width, gif->Image.Height, bytes, GIF_CODES, error) || !take_palette(gif, transparent, im, error))
+        return false;
+    im->width = gif->Image.Width;
+    im->height = gif->Image.Height;
+    im->channels = 1;
+    im->max_value = 255;
+    im->indexed = im->has_alpha = true;        /* POV: also without a transparent entry */
+    return pixels == NULL || read_rows(gif, pixels, error);
 }
 
 static bool read_image(Str bytes, Image *im, void *pixels, char error[IMAGE_ERROR])
 {
-    if (!probe(bytes))
-        return codec_fail(error, "this is no GIF file");
-    ByteReader r = reader_of(bytes);
-    read_skip(&r, 10);
-    unsigned flags = read_u8(&r);
-    read_skip(&r, 2);
-    if (flags & 128)
-        read_palette(&r, im, flags);
-    int transparent = -1;
-    unsigned block;
-    while ((block = read_u8(&r)) == '!') {     /* extensions; 0xf9 names the transparent entry */
-        unsigned label = read_u8(&r);
-        if (label == 0xf9 && r.end - r.next > 5 && r.next[0] == 4 && (r.next[1] & 1))
-            transparent = r.next[4];
-        skip_blocks(&r);
-    }
-    read_skip(&r, 4);
-    long width = (long)read_le16(&r), height = (long)read_le16(&r);
-    flags = read_u8(&r);
-    if (block != ',' || r.ended)
-        return codec_fail(error, "there is no picture in this GIF file");
-    if (!codec_size(width, height, bytes, GIF_CODES, error))
-        return false;
-    if (flags & 128)
-        read_palette(&r, im, flags);
-    if (im->n_palette == 0)
-        return codec_fail(error, "this GIF file has no palette");
-    if (transparent >= 0 && (uint32_t)transparent < im->n_palette)
-        im->palette[transparent][3] = 0;
-    im->width = (int)width;
-    im->height = (int)height;
-    im->channels = 1;
-    im->max_value = 255;
-    im->indexed = im->has_alpha = true;        /* POV: also without a transparent entry */
-    if (pixels == NULL)
-        return true;
-    Canvas canvas = { .pixels = pixels, .width = im->width, .height = im->height, .pass = flags & 64 ? 0 : -1 };
-    return decode(&r, &canvas, error);
+    int code = 0;
+    ByteReader from = reader_of(bytes);
+    GifFileType *gif = DGifOpen(&from, read_bytes, &code);
+    if (gif == NULL)
+        return codec_fail(error, probe(bytes) ? "there is no picture in this GIF file" : "this is no GIF file");
+    bool read = read_with(gif, bytes, im, pixels, error);
+    DGifCloseFile(gif, &code);
+    return read;
 }
+#else
+static bool read_image(Str bytes, Image *im, void *pixels, char error[IMAGE_ERROR])
+{
+    (void)bytes, (void)im, (void)pixels;
+    return codec_fail(error, "this build has no giflib and cannot read GIF files");
+}
+#endif
 
 /* Both halves of a row become one row of 16-bit numbers, of the same size. */
 static bool join_halves(const Image *im, void *pixels)

@@ -132,7 +132,7 @@ static Ttf parse_font(Parser *p)
     }
     Ttf t;
     const char *error;
-    if (!ttf_open(&t, bytes, index, parse_charset_is_ascii(p) ? 0 : TTF_UNICODE_FIRST, &error))
+    if (!ttf_open(&t, parse_arena(p), bytes, index, parse_charset_is_ascii(p) ? 0 : TTF_UNICODE_FIRST, &error))
         parse_fail(p, "the font '%.*s' cannot be used: %s", STR_ARGS(name), error);
     return t;
 }
@@ -154,7 +154,7 @@ static uint32_t next_character(Str s, uint32_t *i)
 typedef struct { uint32_t index; TtfGlyph glyph; Curve *outline; } Seen;
 
 /* Glyphs already loaded, by an open hash table. */
-static const Seen *glyph_of(const Ttf *t, Arena *a, Seen *table, uint32_t mask, uint32_t index)
+static const Seen *glyph_of(const Ttf *t, Seen *table, uint32_t mask, uint32_t index)
 {
     uint32_t slot = (index * 2654435761u) & mask;
     while (table[slot].outline != NULL && table[slot].index != index)
@@ -162,8 +162,8 @@ static const Seen *glyph_of(const Ttf *t, Arena *a, Seen *table, uint32_t mask, 
     Seen *s = &table[slot];
     if (s->outline == NULL) {
         s->index = index;
-        s->glyph = ttf_glyph(t, a, index);
-        s->outline = arena_new(a, Curve);
+        s->glyph = ttf_glyph(t, index);
+        s->outline = arena_new(t->arena, Curve);
         *s->outline = s->glyph.outline;
     }
     return s;
@@ -181,22 +181,19 @@ static void lay_out(Parser *p, const Ttf *t, Str text, Vec3 offset, Params *out)
     for (uint32_t i = 0; i < text.n;) {
         bool first = i == 0;
         uint32_t c = next_character(text, &i);
-        const Seen *s = glyph_of(t, a, table, mask, ttf_glyph_of(t, c));
-        uint32_t m = s->glyph.metrics;
-        double advance = ttf_advance(t, m), bearing = ttf_bearing(t, m);
-        TtfKern kern = first ? (TtfKern){ 0, 0 } : ttf_kern(t, previous, m);
+        const Seen *s = glyph_of(t, table, mask, ttf_glyph_of(t, c));
+        double advance = s->glyph.advance, bearing = s->glyph.bearing, kern = first ? 0 : ttf_kern(t, previous, s->index);
         Vec2 at = { -s->glyph.lo.u, pen.v };
         if (first) {                           /* its ink begins at 0 */
             pen.u = advance - bearing;
         } else {
-            at.u += pen.u + bearing + kern.along;
-            at.v += kern.across;
-            pen.u += advance + kern.along;
+            at.u += pen.u + bearing + kern;
+            pen.u += advance + kern;
         }
         bool blank = c == ' ' || s->outline->n == 0;       /* only the extent knows of it */
         letter[n++] = blank ? (Letter){ .at = at } : (Letter){ s->outline, at, s->glyph.lo, s->glyph.hi };
         pen = (Vec2){ pen.u + offset.x, pen.v + offset.y };
-        previous = m;
+        previous = s->index;
     }
     out->letter = letter;
     out->n = n;
