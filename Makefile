@@ -27,12 +27,28 @@ ifeq ($$(call have,$(2)),1)
   LIBS += $$(shell pkg-config --libs $(2))
 endif
 endef
+# The same for those that few scenes need and that bring a dozen others along: opened by name at the first use (base/library.h).
+# Where the name cannot be found out they are linked.
+soname = $(shell readelf -d "$$($(CC) -print-file-name=lib$(1).so)" 2>/dev/null | sed -n 's/.*(SONAME).*\[\(.*\)\]/\1/p')
+define late
+ifeq ($$(call have,$(2)),1)
+  FEATURES += -DHAVE_$(1) $$(shell pkg-config --cflags $(2))
+  $(1)_NAME := $$(call soname,$(3))
+  ifeq ($$($(1)_NAME),)
+    LIBS += $$(shell pkg-config --libs $(2))
+    FEATURES += -DLIBRARY_$(1)=NULL
+  else
+    FEATURES += -DLIBRARY_$(1)='"$$($(1)_NAME)"'
+  endif
+endif
+endef
 $(eval $(call optional,PNG,libpng))
 $(eval $(call optional,JPEG,libjpeg))
-$(eval $(call optional,TIFF,libtiff-4))
 $(eval $(call optional,GIF,libgif))
 $(eval $(call optional,FREETYPE,freetype2))
-$(eval $(call optional,FONTCONFIG,fontconfig))
+$(eval $(call late,TIFF,libtiff-4,tiff))
+$(eval $(call late,FONTCONFIG,fontconfig,fontconfig))
+LIBS += -ldl
 
 # *_kernel.c is built once per instruction set, each object exporting names with the set pasted on (base/cpu.h).
 ARCH    := $(shell $(CC) -dumpmachine | cut -d- -f1)

@@ -11,7 +11,21 @@ static bool probe(Str bytes)
 #ifdef HAVE_TIFF
 #include <tiffio.h>
 
+#include "base/library.h"
+
+#if TIFFLIB_VERSION >= 20221213                /* handlers of one file; before, only of the whole process */
+#define OPENING(each)                                                                                                  \
+    each(TIFFOpenOptionsAlloc) each(TIFFOpenOptionsFree) each(TIFFOpenOptionsSetErrorHandlerExtR)                      \
+    each(TIFFOpenOptionsSetWarningHandlerExtR) each(TIFFOpenOptionsSetMaxSingleMemAlloc) each(TIFFClientOpenExt)
+#else
+#define OPENING(each) each(TIFFClientOpen)
+#endif
+#define FUNCTIONS(each) OPENING(each) each(TIFFClose) each(TIFFGetField) each(TIFFRGBAImageOK) each(TIFFReadRGBAImageOriented)
+
+typedef struct Library { FUNCTIONS(LIBRARY_FIELD) } Library;
+
 typedef struct Source {
+    Library lib;
     Str bytes;
     uint64_t at;
     char *error;
@@ -53,7 +67,7 @@ static toff_t size(thandle_t h)
     return ((Source *)h)->bytes.n;
 }
 
-#if TIFFLIB_VERSION >= 20221213                /* handlers of one file; before, only of the whole process */
+#if TIFFLIB_VERSION >= 20221213
 static int on_error(TIFF *t, void *user, const char *module, const char *format, va_list args)
 {
     (void)t, (void)module;
@@ -71,20 +85,20 @@ static int on_warning(TIFF *t, void *user, const char *module, const char *forma
 
 static TIFF *tiff_open(Source *s)
 {
-    TIFFOpenOptions *options = TIFFOpenOptionsAlloc();
+    TIFFOpenOptions *options = s->lib.TIFFOpenOptionsAlloc();
     if (options == NULL)
         return NULL;
-    TIFFOpenOptionsSetErrorHandlerExtR(options, on_error, s);
-    TIFFOpenOptionsSetWarningHandlerExtR(options, on_warning, s);
-    TIFFOpenOptionsSetMaxSingleMemAlloc(options, 1 << 30);
-    TIFF *t = TIFFClientOpenExt("image", "rm", s, give, refuse, seek, done, size, NULL, NULL, options);
-    TIFFOpenOptionsFree(options);
+    s->lib.TIFFOpenOptionsSetErrorHandlerExtR(options, on_error, s);
+    s->lib.TIFFOpenOptionsSetWarningHandlerExtR(options, on_warning, s);
+    s->lib.TIFFOpenOptionsSetMaxSingleMemAlloc(options, 1 << 30);
+    TIFF *t = s->lib.TIFFClientOpenExt("image", "rm", s, give, refuse, seek, done, size, NULL, NULL, options);
+    s->lib.TIFFOpenOptionsFree(options);
     return t;
 }
 #else
 static TIFF *tiff_open(Source *s)
 {
-    return TIFFClientOpen("image", "rm", s, give, refuse, seek, done, size, NULL, NULL);
+    return s->lib.TIFFClientOpen("image", "rm", s, give, refuse, seek, done, size, NULL, NULL);
 }
 #endif
 
@@ -102,18 +116,18 @@ static void unpack(const uint32_t *raster, size_t n, uint8_t *out)
     }
 }
 
-static bool read_with(TIFF *t, Str bytes, Image *im, void *pixels, char error[IMAGE_ERROR])
+static bool read_with(const Library *lib, TIFF *t, Str bytes, Image *im, void *pixels, char error[IMAGE_ERROR])
 {
     uint32_t width = 0, height = 0;
     uint16_t n_extra = 0, *extra = NULL;
     char why[1024];
-    TIFFGetField(t, TIFFTAG_IMAGEWIDTH, &width);
-    TIFFGetField(t, TIFFTAG_IMAGELENGTH, &height);
+    lib->TIFFGetField(t, TIFFTAG_IMAGEWIDTH, &width);
+    lib->TIFFGetField(t, TIFFTAG_IMAGELENGTH, &height);
     if (!codec_size((long)width, (long)height, bytes, 1 << 14, error))
         return false;
-    if (!TIFFRGBAImageOK(t, why))
+    if (!lib->TIFFRGBAImageOK(t, why))
         return codec_fail(error, "this kind of TIFF is not read: %.200s", why);
-    TIFFGetField(t, TIFFTAG_EXTRASAMPLES, &n_extra, &extra);
+    lib->TIFFGetField(t, TIFFTAG_EXTRASAMPLES, &n_extra, &extra);
     im->width = (int)width;
     im->height = (int)height;
     im->channels = 4;
@@ -122,7 +136,7 @@ static bool read_with(TIFF *t, Str bytes, Image *im, void *pixels, char error[IM
     if (pixels == NULL)
         return true;
     codec_fail(error, "the file ends before its last pixel");
-    if (!TIFFReadRGBAImageOriented(t, width, height, pixels, ORIENTATION_TOPLEFT, 1))
+    if (!lib->TIFFReadRGBAImageOriented(t, width, height, pixels, ORIENTATION_TOPLEFT, 1))
         return false;
     unpack(pixels, (size_t)width * height, pixels);
     return true;
@@ -132,13 +146,16 @@ static bool read_image(Str bytes, Image *im, void *pixels, char error[IMAGE_ERRO
 {
     if (!probe(bytes))
         return codec_fail(error, "this is no TIFF file");
+    static const char *const names[] = { FUNCTIONS(LIBRARY_NAME) };
+    Source source = { .bytes = bytes, .error = error };
+    if (!library_load(LIBRARY_TIFF, names, sizeof names / sizeof *names, &source.lib))
+        return codec_fail(error, "libtiff, which reads TIFF files, is not installed");
     codec_fail(error, "damaged TIFF");
-    Source source = { bytes, 0, error };
     TIFF *t = tiff_open(&source);
     if (t == NULL)
         return false;
-    bool ok = read_with(t, bytes, im, pixels, error);
-    TIFFClose(t);
+    bool ok = read_with(&source.lib, t, bytes, im, pixels, error);
+    source.lib.TIFFClose(t);
     return ok;
 }
 

@@ -10,6 +10,8 @@
 
 #ifdef HAVE_FONTCONFIG
 #include <fontconfig/fontconfig.h>
+
+#include "base/library.h"
 #endif
 
 typedef struct { const Curve *outline; Vec2 at, lo, hi; } Letter;      /* outline: NULL for blanks; the box that the font states */
@@ -44,12 +46,19 @@ static Str stem_of(Str name)
     return s;
 }
 
+#define FUNCTIONS(each)                                                                                                \
+    each(FcInitLoadConfigAndFonts) each(FcConfigSubstitute) each(FcDefaultSubstitute) each(FcFontMatch) each(FcConfigDestroy)   \
+    each(FcPatternCreate) each(FcPatternAddInteger) each(FcPatternAddString) each(FcPatternGetInteger)                 \
+    each(FcPatternGetString) each(FcPatternDestroy)
+
+typedef struct Fontconfig { FUNCTIONS(LIBRARY_FIELD) } Fontconfig;
+
 /* Family, weight and slant that a file name means. */
-static FcPattern *wanted(Arena *a, Str name)
+static FcPattern *wanted(const Fontconfig *fc, Arena *a, Str name)
 {
     static const char *const styles[] = { "", "bd", "i", "bi", "b", "z" };
     Str stem = stem_of(name);
-    FcPattern *pattern = FcPatternCreate();
+    FcPattern *pattern = fc->FcPatternCreate();
     const char *family = str_c(a, stem);
     for (size_t f = 0; f < sizeof families / sizeof *families; f++)
         for (size_t k = 0; k < sizeof styles / sizeof *styles; k++) {
@@ -58,42 +67,46 @@ static FcPattern *wanted(Arena *a, Str name)
                 continue;
             family = families[f].family;
             if (k == 1 || k >= 3)
-                FcPatternAddInteger(pattern, FC_WEIGHT, FC_WEIGHT_BOLD);
+                fc->FcPatternAddInteger(pattern, FC_WEIGHT, FC_WEIGHT_BOLD);
             if (k == 2 || k == 3 || k == 5)
-                FcPatternAddInteger(pattern, FC_SLANT, FC_SLANT_ITALIC);
+                fc->FcPatternAddInteger(pattern, FC_SLANT, FC_SLANT_ITALIC);
         }
-    FcPatternAddString(pattern, FC_FAMILY, (const FcChar8 *)family);
-    FcPatternAddString(pattern, FC_FONTFORMAT, (const FcChar8 *)"TrueType");
+    fc->FcPatternAddString(pattern, FC_FAMILY, (const FcChar8 *)family);
+    fc->FcPatternAddString(pattern, FC_FONTFORMAT, (const FcChar8 *)"TrueType");
     return pattern;
 }
 
 /* The nearest TrueType font of the system. Strings are copied to `a`. */
 static bool substitute(Arena *a, Str name, Str *path, Str *family, uint32_t *index)
 {
-    FcConfig *config = FcInitLoadConfigAndFonts();
+    static const char *const names[] = { FUNCTIONS(LIBRARY_NAME) };
+    Fontconfig loaded, *const fc = &loaded;
+    if (!library_load(LIBRARY_FONTCONFIG, names, sizeof names / sizeof *names, fc))
+        return false;
+    FcConfig *config = fc->FcInitLoadConfigAndFonts();
     if (config == NULL)
         return false;
-    FcPattern *pattern = wanted(a, name);
-    FcConfigSubstitute(config, pattern, FcMatchPattern);
-    FcDefaultSubstitute(pattern);
+    FcPattern *pattern = wanted(fc, a, name);
+    fc->FcConfigSubstitute(config, pattern, FcMatchPattern);
+    fc->FcDefaultSubstitute(pattern);
     FcResult result;
-    FcPattern *match = FcFontMatch(config, pattern, &result);
+    FcPattern *match = fc->FcFontMatch(config, pattern, &result);
     FcChar8 *file = NULL, *format = NULL, *full = NULL;
     int number = 0;
-    bool found = match != NULL && FcPatternGetString(match, FC_FILE, 0, &file) == FcResultMatch &&
-                 FcPatternGetString(match, FC_FONTFORMAT, 0, &format) == FcResultMatch &&
+    bool found = match != NULL && fc->FcPatternGetString(match, FC_FILE, 0, &file) == FcResultMatch &&
+                 fc->FcPatternGetString(match, FC_FONTFORMAT, 0, &format) == FcResultMatch &&
                  str_is(str_of("TrueType"), (const char *)format);
     if (found) {
-        FcPatternGetInteger(match, FC_INDEX, 0, &number);
-        FcPatternGetString(match, FC_FULLNAME, 0, &full);
+        fc->FcPatternGetInteger(match, FC_INDEX, 0, &number);
+        fc->FcPatternGetString(match, FC_FULLNAME, 0, &full);
         *path = str_copy(a, str_of((const char *)file));
         *family = str_copy(a, str_of(full != NULL ? (const char *)full : (const char *)file));
         *index = (uint32_t)number & 0xffff;
     }
     if (match != NULL)
-        FcPatternDestroy(match);
-    FcPatternDestroy(pattern);
-    FcConfigDestroy(config);
+        fc->FcPatternDestroy(match);
+    fc->FcPatternDestroy(pattern);
+    fc->FcConfigDestroy(config);
     return found;
 }
 #endif
