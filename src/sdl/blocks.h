@@ -112,6 +112,7 @@ const Pigment *pigment_of_colour(Parser *p, Colour c);
 const Normal *normal_body(Parser *p, const Normal *base);  /* base may be NULL */
 bool normal_is_unfinished(const Normal *n);    /* no pattern was ever written */
 const Finish *finish_block(Parser *p, const Finish *base); /* at the brace */
+const Finish *finish_items(Parser *p, const Finish *base); /* those that come next; NULL: none */
 const Texture *texture_body(Parser *p);
 unsigned texture_depth(const Texture *t);      /* of the patterns in its layers */
 const Texture *texture_part(Parser *p, const Texture *top);        /* at pigment, normal or finish: top with that changed */
@@ -120,6 +121,12 @@ const Texture *texture_with(Parser *p, const Texture *from, const Pigment *pigme
 const Pigment *pigment_moved(Parser *p, const Pigment *pigment, const Moves *moves);
 const Normal *normal_moved(Parser *p, const Normal *normal, const Moves *moves);
 const Texture *texture_moved(Parser *p, const Texture *texture, const Moves *moves);       /* all layers */
+
+/* One item of a texture before version 3.0, which had no blocks for its parts; NULL: none comes next. The last two read one item of
+ * theirs (old_texture.c). */
+const Texture *old_texture_item(Parser *p, const Texture *t);
+const Pigment *pigment_old_item(Parser *p, const Pigment *base);
+const Normal *normal_old_item(Parser *p, const Normal *base);          /* base may be NULL */
 
 /* interior.c: at the brace. */
 const Interior *interior_block(Parser *p, const Interior *base);   /* base may be NULL */

@@ -277,8 +277,6 @@ static void version(Parser *p)
     int now = (int)(v * 100 + 0.5);
     if (now > 370)
         fail(p->diag, cursor_loc(p), "Your scene file requires POV-Ray version %g or later!", v);
-    if (now < 300)
-        warn_once(p->diag, cursor_loc(p), "language versions before 3.0 are read as 3.0 where they differ");
     parse_accept(p, TOK_SEMICOLON);
     p->suspended = false;
     p->version = now;

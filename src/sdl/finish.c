@@ -159,23 +159,30 @@ static uint32_t hash_of(const Finish *f)
     return h >> 16;
 }
 
-const Finish *finish_block(Parser *p, const Finish *base)
+/* NULL if there are none. */
+const Finish *finish_items(Parser *p, const Finish *base)
 {
-    block_open(p, "finish");
-    const Finish *known = parse_take_block(p, BLOCK_FINISH);
-    if (known != NULL)
-        base = known;
     Finish f = *base;
     bool changed = false;
     while (item(p, &f))
         changed = true;
-    block_close(p, "finish");
     if (!changed)
-        return base;
+        return NULL;
     apply_albedo(&f);
     Blocks *b = parse_blocks(p);
     uint32_t h = hash_of(&f) % FINISH_CACHE;
     if (b->finish_cache[h] == NULL || memcmp(b->finish_cache[h], &f, sizeof f) != 0)
         b->finish_cache[h] = arena_copy(parse_arena(p), &f, sizeof f);
     return b->finish_cache[h];
+}
+
+const Finish *finish_block(Parser *p, const Finish *base)
+{
+    block_open(p, "finish");
+    const Finish *known = parse_take_block(p, BLOCK_FINISH);
+    if (known != NULL)
+        base = known;
+    const Finish *changed = finish_items(p, base);
+    block_close(p, "finish");
+    return changed != NULL ? changed : base;
 }

@@ -127,6 +127,21 @@ const Normal *normal_body(Parser *p, const Normal *base)
     return n;
 }
 
+const Normal *normal_old_item(Parser *p, const Normal *base)
+{
+    Normal n = base != NULL ? *base : NORMAL_EMPTY;
+    PatternDraft d;
+    pattern_begin(&d, n.pattern);
+    if (!pattern_modifier(p, &d)) {
+        if (base == NULL)
+            n.amount = 0.5f;
+        choose_kind(p, &n, &d);
+        n.amount = (float)parse_optional_float(p, n.amount);
+    }
+    n.pattern = pattern_close(p, &d);
+    return arena_copy(parse_arena(p), &n, sizeof n);
+}
+
 const Normal *parse_normal(Parser *p)
 {
     parse_expect(p, KW_NORMAL);

@@ -192,6 +192,18 @@ const Pigment *pigment_body(Parser *p, const Pigment *base, PatternUse use)
     return g;
 }
 
+const Pigment *pigment_old_item(Parser *p, const Pigment *base)
+{
+    Pigment g = *base;
+    PatternDraft d;
+    pattern_begin(&d, base->pattern);
+    if (choose_kind(p, &g, &d, USE_PIGMENT))
+        d.pattern.wave = WAVE_RAMP;
+    else if (!modifier(p, &g, &d, USE_PIGMENT))
+        return NULL;
+    return close_body(p, &g, &d, base);
+}
+
 const Pigment *parse_pigment(Parser *p)
 {
     parse_expect(p, KW_PIGMENT);

@@ -200,11 +200,13 @@ static bool plain_items(Parser *p, const Texture **t)
             parse_skip(p);
             *t = no_bump_scale(p, *t);
         } else if (!take_move(p, t, &moves)) {
-            break;
+            *t = flush(p, *t, &moves);
+            changed = old_texture_item(p, *t);
+            if (changed == NULL)
+                return any;
+            *t = changed;
         }
     }
-    *t = flush(p, *t, &moves);
-    return any;
 }
 
 /* ---- patterned ---- */
