@@ -5,6 +5,7 @@
 #ifndef BASE_ARENA_H
 #define BASE_ARENA_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -13,6 +14,7 @@ typedef struct ArenaBlock ArenaBlock;
 typedef struct Arena {
     ArenaBlock *block;                         /* newest block; older ones hang behind it */
     char *next, *end;                          /* free part of the newest block */
+    char *clean;                               /* from here on it was never written: it is zero still */
     size_t used, limit;                        /* bytes handed out; 0 = no limit */
     void (*out_of_memory)(void *user);         /* must not return (longjmp); NULL prints and exits with 3 */
     void *user;

@@ -40,6 +40,27 @@ static void rewinding_gives_back_what_came_after_the_mark(void **state)
     arena_free(&a);
 }
 
+static void memory_is_zeroed_again_after_rewinding_in_a_large_block(void **state)
+{
+    (void)state;
+    enum { MANY = 3 << 20 };
+    Arena a;
+    arena_init(&a);
+    arena_alloc(&a, MANY);
+    ArenaMark m = arena_mark(&a);
+    for (int round = 0; round < 3; round++) {
+        unsigned char *p = arena_alloc(&a, 1000);
+        for (int i = 0; i < 1000; i++)
+            assert_int_equal(p[i], 0);
+        arena_rewind(&a, m);
+        p = arena_alloc(&a, 900);
+        for (int i = 0; i < 900; i++)
+            p[i] = 0xff;
+        arena_rewind(&a, m);
+    }
+    arena_free(&a);
+}
+
 static void arrays_grow_and_keep_their_items(void **state)
 {
     (void)state;
@@ -59,6 +80,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_is_zeroed_and_aligned),
         cmocka_unit_test(rewinding_gives_back_what_came_after_the_mark),
+        cmocka_unit_test(memory_is_zeroed_again_after_rewinding_in_a_large_block),
         cmocka_unit_test(arrays_grow_and_keep_their_items),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
