@@ -103,6 +103,15 @@ static float float_of_bits(uint32_t bits)
     return f;
 }
 
+static uint32_t bits_of(float f)
+{
+    uint32_t bits;
+    memcpy(&bits, &f, sizeof bits);
+    return bits;
+}
+
+enum { INFINITE = 0x7f800000 };                /* the bits of it */
+
 typedef struct Steps { float at[257]; } Steps;         /* code k for at[k] <= v < at[k + 1] */
 
 static void find_steps(const Quantising *q, bool is_alpha, int max, Steps *s)
@@ -112,7 +121,17 @@ static void find_steps(const Quantising *q, bool is_alpha, int max, Steps *s)
         s->at[k] = NAN;                        /* nothing reaches it, not even infinity */
         if (k > max)
             continue;
-        uint32_t low = 0, high = 0x7f800000;   /* the bits of floats from 0 to infinity rise with them */
+        /* The bits of floats from 0 to infinity rise with them. From where the inverse says, in ever larger steps; then halves. */
+        uint32_t at = bits_of((float)decoded(q, is_alpha, (k - 0.5) / max)), low = 0, high = INFINITE;
+        for (uint32_t step = 1; at > low && at < high; step *= 4) {
+            if (code_of(encoded(q, is_alpha, (double)float_of_bits(at)), max) >= k) {
+                high = at;
+                at = at > step ? at - step : 0;
+            } else {
+                low = at;
+                at = at + step;
+            }
+        }
         while (high - low > 1) {
             uint32_t middle = low + (high - low) / 2;
             if (code_of(encoded(q, is_alpha, (double)float_of_bits(middle)), max) >= k)
@@ -143,14 +162,19 @@ static void quantise_plain(const float *rgba, size_t n_pixels, const Quantising 
     bool by_steps = q->bits <= 8 && n_pixels > 256;
     if (by_steps) {
         find_steps(q, false, max, &colour);
-        find_steps(q, true, max, &alpha);
+        if (q->alpha)
+            find_steps(q, true, max, &alpha);
     }
     uint16_t last[4] = { 0 };
-    for (size_t p = 0; p < n_pixels; p++) {
+    for (size_t p = 0; p < n_pixels; p++, rgba += 4, out += n) {
+        if (p > 0 && memcmp(rgba, rgba - 4, 4 * sizeof *rgba) == 0) {          /* much of many pictures is of one colour */
+            memcpy(out, out - n, (size_t)n * sizeof *out);
+            continue;
+        }
         double v[4];
-        channels_of(q, rgba + 4 * p, v);
+        channels_of(q, rgba, v);
         for (int i = 0; i < n; i++)
-            *out++ = last[i] = by_steps ? step_of(i < n_colours ? &colour : &alpha, (float)v[i], last[i])
+            out[i] = last[i] = by_steps ? step_of(i < n_colours ? &colour : &alpha, (float)v[i], last[i])
                                         : code_of(encoded(q, i >= n_colours, (double)(float)v[i]), max);
     }
 }
