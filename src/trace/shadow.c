@@ -160,10 +160,9 @@ static void pass_surface(Walk *walk, const Hit *hit)
 static bool still_hidden(Tracer *t, uint32_t light, const Ray *ray)
 {
     uint32_t last = t->last_blocker[light];
-    Hit hit;
     if (last == 0)
         return false;
-    if (prim_nearest(t->world, last - 1, ray, PRIM_NO_SHADOW, &hit))
+    if (prim_meets(t->world, last - 1, ray, PRIM_NO_SHADOW))
         return true;
     t->last_blocker[light] = 0;
     return false;

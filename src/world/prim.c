@@ -311,12 +311,20 @@ bool shaft_each_hit(const World *w, const Shaft *shaft, const Ray *ray, HitVisit
     return search.stop;
 }
 
-bool prim_nearest(const World *w, uint32_t prim, const Ray *ray, uint32_t skip, Hit *out)
+static bool first_will_do(void *user, const Hit *hit)
+{
+    (void)user;
+    (void)hit;
+    return true;
+}
+
+bool prim_meets(const World *w, uint32_t prim, const Ray *ray, uint32_t skip)
 {
     Search search;
     search_start(&search, w, ray, skip);
+    search.visit = first_will_do;
     prim_test(&search, prim);
-    return search_end(&search, out);
+    return search.stop;
 }
 
 static void item_test(Search *search, uint32_t item)
@@ -439,12 +447,6 @@ void world_surface(const World *w, const Ray *ray, const Hit *hit, bool want_uv,
     out->want_uv = want_uv;
     if (w->material[prim->material].flags & MATERIAL_CUTAWAY)
         cutaway_surface(w, prim, out);
-}
-
-Vec3 surface_offset(const Surface *s, Vec3 d)
-{
-    double side = dot(s->geometric, d) < 0 ? -2 : 2;       /* twice: the far side of the error, and as far again */
-    return add(s->p, scaled(s->geometric, side * s->error));
 }
 
 /* ---- bodies around a point ---- */

@@ -12,8 +12,8 @@ bool world_nearest(const World *w, const Ray *ray, uint32_t skip, Hit *out);
 typedef bool HitVisit(void *user, const Hit *hit);
 bool world_each_hit(const World *w, const Ray *ray, uint32_t skip, HitVisit *visit, void *user);
 
-/* As world_nearest, for one prim: does it, counted with its CSG, still block this shadow ray? */
-bool prim_nearest(const World *w, uint32_t prim, const Ray *ray, uint32_t skip, Hit *out);
+/* Has one prim, counted with its CSG, any hit in the ray's range? */
+bool prim_meets(const World *w, uint32_t prim, const Ray *ray, uint32_t skip);
 
 /* Only one CSG item (projected_through, looks_like, trace()). */
 bool item_nearest(const World *w, uint32_t item, const Ray *ray, Hit *out);
@@ -26,7 +26,11 @@ void world_surface(const World *w, const Ray *ray, const Hit *hit, bool want_uv,
 
 /* Where a new ray from this surface into direction d starts: moved off the surface, to d's side, by the error bound, so
  * that t_min = 0 suffices and no absolute epsilon is needed. */
-Vec3 surface_offset(const Surface *s, Vec3 d);
+static inline Vec3 surface_offset(const Surface *s, Vec3 d)
+{
+    double side = dot(s->geometric, d) < 0 ? -2 : 2;       /* twice: the far side of the error, and as far again */
+    return add(s->p, scaled(s->geometric, side * s->error));
+}
 
 /* Interiors of the bodies that contain p, each once, in scene order, their clips left aside; returns how many (at most max). */
 uint32_t world_interiors_at(const World *w, Vec3 p, uint32_t *interior, uint32_t max);
