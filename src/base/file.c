@@ -134,7 +134,9 @@ FileResult file_open_write(Arena *scratch, const FileAccess *access, Str path, b
         return FILE_FORBIDDEN;
     }
     *out = fdopen(fd, append ? "a" : "w");
-    if (!*out)
+    if (*out)
+        setvbuf(*out, NULL, _IOFBF, 1 << 16);
+    else
         close(fd);
     return *out ? FILE_OK : FILE_UNREADABLE;
 }

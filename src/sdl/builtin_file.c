@@ -322,6 +322,13 @@ static void write_binary(FILE *out, const Binary *b, double v)
 /* What is not ASCII is written as a blank. */
 static void write_text(FILE *out, Str s)
 {
+    unsigned char all = 0;
+    for (uint32_t i = 0; i < s.n; i++)
+        all |= (unsigned char)s.data[i];
+    if (all < 0x80) {
+        fwrite(s.data, 1, s.n, out);
+        return;
+    }
     for (uint32_t i = 0; i < s.n; i++)
         if (((unsigned char)s.data[i] & 0xc0) != 0x80)
             fputc(s.data[i] & 0x80 ? ' ' : s.data[i], out);

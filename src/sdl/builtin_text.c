@@ -171,6 +171,11 @@ static void format_number(Parser *p, Text *t, double v, int width, int precision
     char text[512], format[32];
     int w = width < 0 ? -width : width;
     w = w > 250 || w < 0 ? 250 : w;
+    size_t quick = w <= 1 ? number_fixed(v, precision, text) : 0;
+    if (quick > 0) {
+        text_add(p, t, text, quick);
+        return;
+    }
     snprintf(format, sizeof format, width < 0 ? "%%0*.*%s" : "%%*.*%s", "f");
     int n = snprintf(text, sizeof text, format, w, precision > 250 ? 250 : precision, v);
     if (n >= 255) {

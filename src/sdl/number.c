@@ -1,4 +1,4 @@
-/* number.c - decimal literals to doubles, correctly rounded.
+/* number.c - decimal literals to doubles and back, correctly rounded.
  *
  * Up to 2^53 with powers of ten up to 10^22 one exact operation does it (Clinger, "How to read floating point numbers
  * accurately", 1990). Up to 19 digits, 128 bits of the power of five decide (Lemire, "Number parsing at a gigabyte per
@@ -206,4 +206,54 @@ bool number_scan(const char **at, const char *end, double *out)
     }
     *out = slow(first, s, written);
     return true;
+}
+
+static char *put_digits(char *out, uint64_t v, int n)
+{
+    for (int i = n; i-- > 0; v /= 10)
+        out[i] = (char)('0' + v % 10);
+    return out + n;
+}
+
+/* The fraction bits times 10^digits fit 128 bits, so that the digits and what is cut off are exact. */
+size_t number_fixed(double v, int digits, char out[NUMBER_FIXED])
+{
+    static const uint64_t tens[] = { 1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000, 1000000000, 10000000000,
+                                     100000000000, 1000000000000, 10000000000000, 100000000000000, 1000000000000000,
+                                     10000000000000000, 100000000000000000, 1000000000000000000 };
+    uint64_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    int power = (int)(bits >> 52 & 0x7ff) - 1075;              /* |v| is mantissa * 2^power */
+    if (digits < 0 || digits >= (int)(sizeof tens / sizeof *tens) || power > 0)
+        return 0;
+    uint64_t mantissa = (bits & 0xfffffffffffff) | (uint64_t)1 << 52, whole = 0, fraction = 0;
+    int shift = -power;
+    if (shift < 64) {
+        whole = mantissa >> shift;
+        mantissa -= whole << shift;
+    }
+    if (shift < 120) {                         /* beyond, and for zero: less than half of the last digit */
+        u128 scaled = (u128)mantissa * tens[digits], half = (u128)1 << shift >> 1;
+        fraction = (uint64_t)(scaled >> shift);
+        u128 rest = scaled - ((u128)fraction << shift);
+        uint64_t last = digits ? fraction : whole;
+        if (shift > 0 && (rest > half || (rest == half && last % 2)))
+            fraction++;
+    }
+    if (fraction >= tens[digits]) {
+        fraction -= tens[digits];
+        whole++;
+    }
+    char *at = out;
+    if (bits >> 63)
+        *at++ = '-';
+    int n = 1;
+    while (whole >= tens[n])                   /* at most 2^53 */
+        n++;
+    at = put_digits(at, whole, n);
+    if (digits) {
+        *at++ = '.';
+        at = put_digits(at, fraction, digits);
+    }
+    return (size_t)(at - out);
 }

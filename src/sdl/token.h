@@ -54,4 +54,8 @@ Loc lex_loc(const Lexer *l);                   /* of `at` */
 /* A decimal literal at `*at`, moved behind it; false if there is none. Correctly rounded. */
 bool number_scan(const char **at, const char *end, double *out);
 
+/* What printf makes of "%.*f"; the number of characters, or 0 for what only printf can do: large numbers and many digits. */
+enum { NUMBER_FIXED = 48 };
+size_t number_fixed(double v, int digits, char out[NUMBER_FIXED]);
+
 #endif

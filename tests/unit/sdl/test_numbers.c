@@ -4,6 +4,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <cmocka.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,6 +55,40 @@ static void numbers_as_exporters_write_them(void **state)
         snprintf(text, sizeof text, i & 1 ? "%.*f" : "%.*e", (int)(random64() % 18), v);
         same_as_strtod(text);
     }
+}
+
+static void same_as_printf(double v, int digits)
+{
+    char got[NUMBER_FIXED], want[400];
+    size_t n = number_fixed(v, digits, got);
+    if (n == 0)
+        return;
+    snprintf(want, sizeof want, "%.*f", digits, v);
+    assert_int_equal(n, strlen(want));
+    assert_memory_equal(got, want, n);
+}
+
+static void numbers_are_written_as_printf_does(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 300000; i++) {
+        uint64_t r = random64();
+        int digits = (int)(r % 20);
+        same_as_printf(ldexp((double)(int64_t)r, -(int)(random64() % 140)), digits);
+        same_as_printf((double)(int64_t)(random64() >> 50) * ((r & 64) ? -0x1p-4 : 0x1p-7), digits);  /* ties */
+        same_as_printf((double)(int64_t)(random64() >> 44) / 1e5, digits);
+    }
+    char text[NUMBER_FIXED];
+    static const double some[] = { 0, -0.0, 0.5, 1.5, 2.5, -0.5, 0.999, 9.5, 99.5, 0x1p53, 0x1p52, 9007199254740991, 1e-320, 0x1p-1022 };
+    for (size_t i = 0; i < sizeof some / sizeof *some; i++)
+        for (int digits = 0; digits <= 18; digits++) {
+            assert_true(number_fixed(some[i], digits, text) > 0 || some[i] >= 0x1p53);
+            same_as_printf(some[i], digits);
+        }
+    assert_int_equal(number_fixed(INFINITY, 3, text), 0);
+    assert_int_equal(number_fixed(NAN, 3, text), 0);
+    assert_int_equal(number_fixed(1, -1, text), 0);
+    assert_int_equal(number_fixed(1, 19, text), 0);
 }
 
 static void hard_and_strange_literals(void **state)
@@ -126,6 +161,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_double_survives_being_written),
         cmocka_unit_test(numbers_as_exporters_write_them),
+        cmocka_unit_test(numbers_are_written_as_printf_does),
         cmocka_unit_test(hard_and_strange_literals),
         cmocka_unit_test(thousands_of_digits),
         cmocka_unit_test(the_exponent_may_lack_its_digits),
