@@ -10,13 +10,16 @@
 
 uint32_t hash_bytes(const void *data, size_t n)
 {
-    const unsigned char *p = data;
-    uint32_t h = 2166136261u;                  /* FNV-1a, then stirred */
-    for (size_t i = 0; i < n; i++)
-        h = (h ^ p[i]) * 16777619u;
-    h ^= h >> 15;
-    h *= 0x2c1b3c6du;
-    return h ^ h >> 13;
+    const char *p = data;
+    uint64_t h = n;
+    for (size_t i = 0; i < n; i += 8) {        /* the multiplication carries up, the shift brings it down again */
+        uint64_t word = 0;
+        memcpy(&word, p + i, n - i < 8 ? n - i : 8);
+        h = (h ^ word) * 0x9e3779b97f4a7c15u;
+        h ^= h >> 29;
+    }
+    h *= 0xbf58476d1ce4e5b9u;
+    return (uint32_t)(h >> 32);
 }
 
 static void table_grow(Compile *c, Table *t, TableHash *hash_at)
@@ -92,7 +95,7 @@ static void begin(Compile *c, World *w, Arena *arena, const Registry *registry, 
     w->unit = unit;
     static const Interior nothing = { .ior = 1, .dispersion = 1, .old_refraction = 1, .dispersion_samples = 7 };
     Affine none = affine_identity();
-    c->identity = c->last_place = arena_copy(c->arena, &none, sizeof none);
+    c->identity = arena_copy(c->arena, &none, sizeof none);
     array_push(c->arena, &c->csg, (CsgNode){ 0 });
     array_push(c->arena, &c->texture, (PlacedTexture){ 0 });
     array_push(c->arena, &c->interior, (PlacedInterior){ .interior = &nothing });

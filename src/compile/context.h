@@ -27,6 +27,7 @@ typedef struct Inherited {
     uint32_t first_group_light, n_group_lights;
     bool uv, hollow, cutaway, double_illuminate, no_global_lights;
     bool in_csg;
+    bool may_repeat;                           /* below something declared */
     bool lights_known;                         /* light_group: its own lights are in the World already */
 } Inherited;
 
@@ -52,6 +53,8 @@ typedef struct Shared {                        /* a shape compiled for all its c
     uint32_t first, n;                         /* in Compile.shared_prim */
 } Shared;
 
+enum { RECENT_PLACES = 256 };                  /* shapes in the scene's own space have few: one for each unit */
+
 struct Compile {
     World *w;
     Arena *arena;                              /* where the World's arrays stand */
@@ -59,7 +62,8 @@ struct Compile {
     bool geometry_only;                        /* queries: no textures, materials, lights */
     double unit;
     Affine to_world;                           /* scale by unit */
-    const Affine *identity, *last_place;       /* of prims */
+    const Affine *identity;                    /* of prims */
+    const Affine *recent_place[RECENT_PLACES]; /* by the hash of the matrix; the newest stays */
 
     ARRAY(Prim) prim;
     ARRAY(Bounds) box;

@@ -71,9 +71,11 @@ static const Affine *kept_place(Compile *c, const Affine *place)
 {
     if (place->identity)
         return c->identity;
-    if (memcmp(c->last_place->m, place->m, sizeof place->m) != 0)      /* else one shape of several prims */
-        c->last_place = arena_copy(c->arena, place, sizeof *place);
-    return c->last_place;
+    const Affine **recent = &c->recent_place[hash_bytes(place->m, sizeof place->m) % RECENT_PLACES];
+    if (*recent == NULL || memcmp((*recent)->m, place->m, sizeof place->m) != 0 ||
+        memcmp((*recent)->inv, place->inv, sizeof place->inv) != 0)
+        *recent = arena_copy(c->arena, place, sizeof *place);
+    return *recent;
 }
 
 static void prim_add(Compile *c, const ShapeOps *ops, const void *data, const Affine *place, Bounds local)
@@ -113,21 +115,27 @@ static bool shared_same(const Compile *c, uint32_t i, const void *key)
     return s->ops == k->ops && s->params == k->params && s->flags == k->flags;
 }
 
-/* Compiles the shape once for all its copies, in its own space. Returns NULL if it has to be done for each copy. */
+/* In its own space. */
+static void shape_record(Compile *c, ShapeBuild *b, const Object *o, Shared *s)
+{
+    s->first = c->shared_prim.n;
+    c->recording = true;
+    o->ops->compile(b, o->params);
+    c->recording = false;
+    s->n = c->shared_prim.n - s->first;
+    s->own = c->asked_own;
+    s->opaque = c->all_opaque;
+    s->no_inside = b->no_inside;
+}
+
+/* Compiles the shape once for all its copies, unless it has to be done for each copy. */
 static const Shared *shape_shared(Compile *c, ShapeBuild *b, const Object *o)
 {
     Shared key = { .ops = o->ops, .params = o->params, .flags = o->flags & (OBJECT_STURM | OBJECT_OPEN | OBJECT_NO_HIERARCHY) };
     uint32_t *slot = table_find(c, &c->shares, shared_hash_of(key.ops, key.params, key.flags), &key, shared_same, shared_hash);
     if (*slot != 0 && !c->shared.data[*slot - 1].own)
         return &c->shared.data[*slot - 1];
-    key.first = c->shared_prim.n;
-    c->recording = true;
-    o->ops->compile(b, o->params);
-    c->recording = false;
-    key.n = c->shared_prim.n - key.first;
-    key.own = c->asked_own;
-    key.opaque = c->all_opaque;
-    key.no_inside = b->no_inside;
+    shape_record(c, b, o, &key);
     if (*slot == 0) {
         array_push(c->arena, &c->shared, key);
         *slot = c->shared.n;
@@ -153,7 +161,12 @@ static void shape_compile(Compile *c, const Object *o, const Inherited *from)
         c->no_inside = b.no_inside;
         return;
     }
-    const Shared *s = shape_shared(c, &b, o);
+    Shared only;
+    const Shared *s = &only;
+    if (from->may_repeat || (o->flags & OBJECT_DECLARED))
+        s = shape_shared(c, &b, o);
+    else
+        shape_record(c, &b, o, &only);
     c->all_opaque = s->opaque;
     c->no_inside = s->no_inside;
     for (uint32_t i = 0; i < s->n; i++) {
@@ -161,6 +174,8 @@ static void shape_compile(Compile *c, const Object *o, const Inherited *from)
         Affine place = affine_then(p->place, c->shape_place);
         prim_add(c, o->ops, p->data, &place, p->local);
     }
+    if (s == &only)
+        c->shared_prim.n = only.first;
 }
 
 /* ---- what an object takes from those around it ---- */
@@ -192,6 +207,7 @@ static Inherited inherit(Compile *c, const Object *o, const Inherited *from, Aff
     *place = affine_then(affine_of(o->place), *from->place);
     in.place = place;
     in.lights_known = false;
+    in.may_repeat |= (o->flags & OBJECT_DECLARED) != 0;
     in.inversions += (o->flags & OBJECT_INVERSE) != 0;
     in.hollow = o->flags & OBJECT_HOLLOW_SET ? (o->flags & OBJECT_HOLLOW) != 0 : from->hollow;
     in.double_illuminate |= (o->flags & OBJECT_DOUBLE_ILLUMINATE) != 0;
@@ -341,7 +357,7 @@ static uint32_t shape_item(Compile *c, const Object *o, const Inherited *from)
  * space around o. */
 static void helpers(Compile *c, const Object *const *list, uint32_t n, const Inherited *from, Items *out)
 {
-    Inherited helper = { .place = from->place, .prim_flags = PRIM_HELPER };
+    Inherited helper = { .place = from->place, .prim_flags = PRIM_HELPER, .may_repeat = true };
     bool geometry_only = c->geometry_only;
     c->geometry_only = true;
     for (uint32_t i = 0; i < n; i++) {

@@ -27,7 +27,8 @@ enum {
     OBJECT_GLOBAL_LIGHTS = 1 << 14,            /* light_group: members also see the global lights */
     OBJECT_BOUNDED_BY_CLIP = 1 << 15,          /* bounded_by { clipped_by }: both lists are the same */
     OBJECT_HAS_INSIDE = 1 << 16,               /* a mesh with inside_vector: no patch */
-    OBJECT_HOLDS_PATCH = 1 << 17               /* CSG: some child, at any depth, is a patch */
+    OBJECT_HOLDS_PATCH = 1 << 17,              /* CSG: some child, at any depth, is a patch */
+    OBJECT_DECLARED = 1 << 18                  /* has been an identifier: it and its copies may stand in many places */
 };
 
 typedef struct PhotonsBlock {

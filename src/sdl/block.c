@@ -291,7 +291,7 @@ const void *block_parse(Parser *p, BlockKind *kind)
             *kind = values[i].kind;
             return values[i].value(p);
         }
-    const Object *o = keyword == TOK_NAME ? NULL : parse_object(p);
+    const Object *o = keyword == TOK_NAME ? NULL : object_value(p);
     *kind = o != NULL ? BLOCK_OBJECT : BLOCK_NONE;
     return o;
 }

@@ -148,6 +148,7 @@ Object *draft_close(Parser *p, const ObjectDraft *d);
 void object_modifiers(Parser *p, ObjectDraft *d, const char *word);        /* to the brace that closes `word` */
 const Object *object_moved(Parser *p, const Object *o, const Affine *move);
 bool object_is_patch(const Object *o);         /* has no inside */
+const Object *object_value(Parser *p);         /* to be declared; NULL if the next token starts no object */
 void draft_holds(Parser *p, ObjectDraft *d, const Object *part);   /* the depth grows with it */
 bool scene_object(Parser *p);                  /* a statement of the scene, if the next token begins an object */
 Object *light_block(Parser *p);                /* at `light_source` */

@@ -475,6 +475,17 @@ const Object *parse_object(Parser *p)
     return read_object(p, &fresh);
 }
 
+const Object *object_value(Parser *p)
+{
+    bool fresh;
+    const Object *o = read_object(p, &fresh);
+    if (o == NULL || (o->flags & OBJECT_DECLARED))
+        return o;
+    Object *mine = fresh ? (Object *)(uintptr_t)o : arena_copy(parse_arena(p), o, sizeof *o);
+    mine->flags |= OBJECT_DECLARED;
+    return mine;
+}
+
 /* A whole statement of the scene: it takes the default texture in force at its end. */
 bool scene_object(Parser *p)
 {

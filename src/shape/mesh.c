@@ -10,7 +10,7 @@
 typedef struct Mesh {
     const MeshParams *m;
     const AccelOps *ops;
-    const void *accel;                         /* item i is faces run[i] to run[i + 1] - 1 */
+    const void *accel;                         /* item i is faces run[i] to run[i + 1] - 1; NULL: all are tested */
     const uint32_t *run;
     const uint32_t *texture;                   /* of build_texture, by index in the mesh */
     Vec3 inward;                               /* direction of inside tests; 0: no inside */
@@ -152,10 +152,10 @@ void mesh_compile(ShapeBuild *b, const void *params)
         return;
     Mesh *out = build_data(b, sizeof *out);
     *out = (Mesh){ .m = m, .ops = b->accel, .inward = m->inside_vector };
-    build_hierarchy(b, out);
-    if (m->n_textures > 0) {
+    if (m->n_faces > RUN_MAX)
+        build_hierarchy(b, out);
+    if (m->n_textures > 0)
         out->texture = used_textures(b, m);
-    }
     /* POV: the vector stays as written when the mesh is turned. It makes a difference only when there are holes. */
     if (max_abs(out->inward) > 0 && !is_closed(m)) {
         Affine place = build_own_place(b);
@@ -183,18 +183,27 @@ typedef struct Walk {
     HitSink *sink;
 } Walk;
 
-static bool visit(void *user, uint32_t item, double *t_max)
+/* Says whether there was a hit. */
+static bool test_faces(Walk *w, uint32_t first, uint32_t end)
 {
-    Walk *w = user;
     const Float3 *vertex = w->mesh->m->vertex;
-    for (uint32_t i = w->mesh->run[item]; i < w->mesh->run[item + 1]; i++) {
+    bool any = false;
+    for (uint32_t i = first; i < end; i++) {
         const uint32_t *f = w->mesh->m->face[i].v;
         TriHit hit;
         if (tri_hit(&w->ray, to_vec3(vertex[f[0]]), to_vec3(vertex[f[1]]), to_vec3(vertex[f[2]]), &hit)) {
             hit_add_uv(w->sink, hit.t, i, hit.u, hit.v);
-            *t_max = hit_limit(w->sink);
+            any = true;
         }
     }
+    return any;
+}
+
+static bool visit(void *user, uint32_t item, double *t_max)
+{
+    Walk *w = user;
+    if (test_faces(w, w->mesh->run[item], w->mesh->run[item + 1]))
+        *t_max = hit_limit(w->sink);
     return false;
 }
 
@@ -203,7 +212,10 @@ void mesh_hits(const void *shape, const Ray *ray, HitSink *sink)
     const Mesh *mesh = shape;
     Walk w = { mesh, tri_ray(ray), sink };
     double t_max = hit_limit(sink);
-    mesh->ops->walk(mesh->accel, ray, &t_max, visit, &w);
+    if (mesh->accel != NULL)
+        mesh->ops->walk(mesh->accel, ray, &t_max, visit, &w);
+    else
+        test_faces(&w, 0, mesh->m->n_faces);
 }
 
 typedef struct Parity {
@@ -261,7 +273,11 @@ bool mesh_inside(const void *shape, Vec3 p)
     Ray ray = { p, mesh->inward, 0, INFINITY };
     Parity c = { mesh, tri_ray(&ray), false };
     double t_max = INFINITY;
-    mesh->ops->walk(mesh->accel, &ray, &t_max, count, &c);
+    if (mesh->accel != NULL)
+        mesh->ops->walk(mesh->accel, &ray, &t_max, count, &c);
+    else
+        for (uint32_t i = 0; i < mesh->m->n_faces; i++)
+            count_face(&c, i);
     return c.odd;
 }
 

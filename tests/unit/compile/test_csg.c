@@ -235,7 +235,7 @@ static void copies_of_a_shared_shape_share_its_data(void **state)
     enum { N = 1000 };
     Arena a;
     arena_init(&a);
-    const Object *one = block(&a, vec3(0, 0, 0), vec3(1, 1, 1)), *copy[N];
+    const Object *one = flagged(&a, block(&a, vec3(0, 0, 0), vec3(1, 1, 1)), OBJECT_DECLARED), *copy[N];
     for (int i = 0; i < N; i++)
         copy[i] = placed(&a, one, affine_translate(vec3(2 * i, 0, 0)));
     World *w = world_of(&a, N, copy, "bvh");
