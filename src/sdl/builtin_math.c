@@ -114,7 +114,8 @@ static double of_many(Parser *p, int keyword)
     bool bits = keyword != KW_MIN && keyword != KW_MAX;
     int32_t b = bits ? int32(v) : 0;
     while (!parse_accept(p, TOK_RPAREN)) {
-        parse_comma(p);
+        if (!parse_accept(p, TOK_COMMA))
+            parse_mend(p, "A comma is missing");
         double w = expr_float(p);
         switch (keyword) {
         case KW_MIN: v = w < v ? w : v; break;

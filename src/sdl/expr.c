@@ -171,6 +171,7 @@ static void keyword_operand(Parser *p, int kind, Num *out)
         p->token = word;
         p->have = true;
         if (kind_starts_colour(p)) {
+            parse_mend(p, "A color word within an expression");
             colour_parse(p, out, false);
             return;
         }
@@ -234,7 +235,9 @@ static int component_of(int keyword)
 
 static void components(Parser *p, Num *n)
 {
-    while (cursor_look(p) == TOK_DOT) {
+    for (bool first = true; cursor_look(p) == TOK_DOT; first = false) {
+        if (!first)
+            parse_mend(p, "A component of a component");
         p->have = false;
         int i = component_of(cursor_look(p));
         if (i < 0)

@@ -127,7 +127,8 @@ static bool area_item(Parser *p, ObjectDraft *d, LightSource *l, int keyword)
     }
 }
 
-static bool item(Parser *p, ObjectDraft *d, LightSource *l)
+/* copied: the light began as a copy of another, and may be given another colour. */
+static bool item(Parser *p, ObjectDraft *d, LightSource *l, bool copied)
 {
     int keyword = parse_peek(p);
     Affine move;
@@ -135,6 +136,8 @@ static bool item(Parser *p, ObjectDraft *d, LightSource *l)
     switch (keyword) {
     case KW_COLOR: case KW_RGB: case KW_RGBF: case KW_RGBT: case KW_RGBFT: case KW_RED: case KW_GREEN: case KW_BLUE:
     case KW_SRGB: case KW_SRGBF: case KW_SRGBT: case KW_SRGBFT:
+        if (!copied)
+            parse_mend(p, "A light's color belongs behind its location");
         l->colour = parse_rgb(p);
         return true;
     case KW_COLOR_MAP: {
@@ -197,7 +200,7 @@ Object *light_block(Parser *p)
             l->colour = parse_rgb(p);
     }
     d.o.light = l;
-    while (item(p, &d, l))
+    while (item(p, &d, l, known != NULL))
         ;
     block_close(p, "light_source");
     return draft_close(p, &d);

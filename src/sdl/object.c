@@ -257,6 +257,8 @@ static bool shape_flag(Parser *p, Object *o, int keyword)
                 return false;
             if (!fits)
                 parse_fail(p, "Keyword '%s' cannot be used with this object.", parse_word(keyword));
+            if (keyword == KW_OPEN && (o->flags & OBJECT_OPEN))
+                parse_mend(p, "A second 'open'");
             parse_skip(p);
             bool value = keyword == KW_OPEN || on(p);
             set(o, rows[i].flag, rows[i].off ? !value : value);

@@ -75,6 +75,8 @@ Str parse_read_file(Parser *p, Str name, Loc where);
 /* The same, also with one of the extensions (ended by NULL) appended; false if there is none. */
 bool parse_find_file(Parser *p, Str name, const char *const *extensions, Loc where, Str *out);
 bool parse_is_strict(const Parser *p);         /* nothing is mended: as the reference or not at all */
+/* At what the reference refuses though it has one meaning only: an error if strict, else a warning, once. */
+void parse_mend(Parser *p, const char *what);
 bool parse_charset_is_ascii(const Parser *p);  /* as global_settings said; strings are UTF-8 in any case */
 
 _Noreturn void parse_fail(Parser *p, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -312,6 +312,13 @@ bool parse_is_strict(const Parser *p)
     return p->options->strict;
 }
 
+void parse_mend(Parser *p, const char *what)
+{
+    if (p->options->strict)
+        parse_fail(p, "%s", what);
+    warn_once(p->diag, parse_loc(p), "%s: read all the same.", what);
+}
+
 bool parse_charset_is_ascii(const Parser *p)
 {
     return p->charset == CHARSET_ASCII;

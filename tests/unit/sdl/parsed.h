@@ -34,11 +34,11 @@ static double no_value(void *user, const Pattern *pattern, Vec3 p)
     return 0;
 }
 
-static Parsed *parsed(const char *text)
+static Parsed *parsed_as(const char *text, bool strict)
 {
     Parsed *volatile s = calloc(1, sizeof *s);
     SdlHost host = { .registry = &registry, .inside = no_inside, .pigment = no_colour, .pattern = no_value };
-    SdlOptions options = { .width = 320, .height = 240, .input_name = str_of("test.pov") };
+    SdlOptions options = { .width = 320, .height = 240, .strict = strict, .input_name = str_of("test.pov") };
     arena_init(&s->arena);
     s->diag = diag_new(&s->arena);
     if (setjmp(*diag_landing(s->diag)) == 0)
@@ -46,6 +46,16 @@ static Parsed *parsed(const char *text)
     else
         s->failed = true;
     return s;
+}
+
+static inline Parsed *parsed(const char *text)
+{
+    return parsed_as(text, false);
+}
+
+static inline Parsed *parsed_strictly(const char *text)
+{
+    return parsed_as(text, true);
 }
 
 static void parsed_free(Parsed *s)

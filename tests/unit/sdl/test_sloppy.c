@@ -28,6 +28,24 @@ static void accepted(const char *text)
     parsed_free(s);
 }
 
+static void what_has_one_meaning_is_read_with_a_warning_and_strictly_refused(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        HEAD "#declare A = rgb 1 + rgb 1;", HEAD "#declare A = <1,2,3>.x.x;", HEAD "#declare A = min(3 1);",
+        HEAD "cylinder { 0, x, 1 open open pigment { rgb 1 } }", HEAD "light_source { 0, 1 rgb 1 }",
+    };
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        Parsed *s = parsed(texts[i]);
+        assert_false(s->failed);
+        assert_true(said(s, DIAG_WARNING, "read all the same"));
+        parsed_free(s);
+        s = parsed_strictly(texts[i]);
+        assert_true(s->failed);
+        parsed_free(s);
+    }
+}
+
 static void a_vector_may_lack_a_comma(void **state)
 {
     (void)state;
@@ -176,6 +194,7 @@ static void a_scene_may_say_neither_version_nor_gamma(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_has_one_meaning_is_read_with_a_warning_and_strictly_refused),
         cmocka_unit_test(a_vector_may_lack_a_comma),
         cmocka_unit_test(a_polygon_may_lack_commas_and_its_last_point),
         cmocka_unit_test(macro_parameters_may_lack_a_comma),
