@@ -5,7 +5,6 @@
  * The sink keeps the least hit by a total order, so neither the order nor the number of offers matters. */
 #include "world/prim.h"
 
-#include <stddef.h>
 #include <string.h>
 
 #include "world/shaft.h"
@@ -25,7 +24,9 @@ typedef struct Search {
     const Ray *ray;                            /* in world space */
     HitVisit *visit;                           /* each hit goes here; NULL: keep the nearest */
     void *user;
-    Hit best;                                  /* if found */
+    Hit *hit;                                  /* the nearest, if found; the one being visited */
+    const Affine *place;                       /* where `local` is the ray; NULL: nowhere yet */
+    Ray local;
 } Search;
 
 /* ---- inside ---- */
@@ -163,46 +164,52 @@ static bool csg_keeps(const Search *search, double t)
 }
 
 /* The total order of hits: nearer, then earlier in the World, then the smaller part. */
-static bool comes_before(double t, uint32_t prim, uint32_t part, const Hit *b)
+static bool wins_tie(uint32_t prim, uint32_t part, const Hit *b)
 {
-    if (t != b->t)
-        return t < b->t;
     return prim != b->prim ? prim < b->prim : part < b->part;
 }
 
+/* t <= sink->limit, which is that of the nearest hit found. */
 void hit_offer(HitSink *sink, double t, uint32_t part, double u, double v)
 {
     Search *search = (Search *)sink;
-    if (search->found && !comes_before(t, search->prim, part, &search->best))
+    if (search->found && t == sink->limit && !wins_tie(search->prim, part, search->hit))
         return;
     if (search->csg != search->above && !csg_keeps(search, t))
         return;
-    Hit hit = { .t = t, .u = u, .v = v, .prim = search->prim, .part = part };
-    if (search->visit != NULL) {
-        search->stop = search->visit(search->user, &hit);
-        if (search->stop)
-            sink->limit = -INFINITY;
-        return;
+    *search->hit = (Hit){ .t = t, .u = u, .v = v, .prim = search->prim, .part = part };
+    if (search->visit == NULL) {
+        search->found = true;
+        sink->limit = t;
+    } else if (search->visit(search->user, search->hit)) {
+        search->stop = true;
+        sink->limit = -INFINITY;
     }
-    search->best = hit;
-    search->found = true;
-    sink->limit = t;
 }
 
 /* ---- rays ---- */
 
-static void prim_test(Search *search, uint32_t index)
+/* The ray in a prim's space. Most prims have no place of their own, and neighbours may share one. */
+static inline const Ray *local_ray(Search *search, const Affine *place)
 {
-    const World *w = search->world;
-    const Prim *prim = &w->prim[index];
+    const Ray *ray = search->ray;
+    if (place->identity)
+        return ray;
+    if (search->place != place) {
+        search->place = place;
+        search->local = (Ray){ affine_apply(place->inv, ray->o), affine_apply_linear(place->inv, ray->d), ray->t_min, ray->t_max };
+    }
+    return &search->local;
+}
+
+static inline void prim_test(Search *search, uint32_t index)
+{
+    const Prim *prim = &search->world->prim[index];
     if ((prim->flags & search->skip) || ((prim->flags & PRIM_BOUNDED) && !bounds_let_through(search, prim->csg)))
         return;
-    const Affine *place = prim->place;
-    Ray local = { affine_point_back(place, search->ray->o), affine_vector_back(place, search->ray->d),
-                  search->sink.t_min, search->sink.limit };
     search->prim = index;
     search->csg = prim->csg;
-    prim->ops->hits(prim->data, &local, &search->sink);
+    prim->ops->hits(prim->data, local_ray(search, prim->place), &search->sink);
 }
 
 static bool test_item(void *user, uint32_t i, double *t_max)
@@ -264,7 +271,7 @@ static void all_prims(Search *search)
         w->accel_ops->walk(w->accel, search->ray, &search->sink.limit, test_item, search);
 }
 
-static void search_start(Search *search, const World *w, const Ray *ray, uint32_t skip)
+static inline void search_start(Search *search, const World *w, const Ray *ray, uint32_t skip, Hit *hit)
 {
     search->sink = (HitSink){ ray->t_min, ray->t_max };
     search->found = search->stop = false;
@@ -273,27 +280,23 @@ static void search_start(Search *search, const World *w, const Ray *ray, uint32_
     search->world = w;
     search->ray = ray;
     search->visit = NULL;
-}
-
-static bool search_end(const Search *search, Hit *out)
-{
-    if (search->found)
-        *out = search->best;
-    return search->found;
+    search->hit = hit;
+    search->place = NULL;
 }
 
 bool world_nearest(const World *w, const Ray *ray, uint32_t skip, Hit *out)
 {
-    Search search;                             /* not cleared: the hit is written when found */
-    search_start(&search, w, ray, skip);
+    Search search;                             /* not cleared: the local ray is large, and seldom used */
+    search_start(&search, w, ray, skip, out);
     all_prims(&search);
-    return search_end(&search, out);
+    return search.found;
 }
 
 bool world_each_hit(const World *w, const Ray *ray, uint32_t skip, HitVisit *visit, void *user)
 {
+    Hit hit;
     Search search;
-    search_start(&search, w, ray, skip);
+    search_start(&search, w, ray, skip, &hit);
     search.visit = visit;
     search.user = user;
     all_prims(&search);
@@ -302,8 +305,9 @@ bool world_each_hit(const World *w, const Ray *ray, uint32_t skip, HitVisit *vis
 
 bool shaft_each_hit(const World *w, const Shaft *shaft, const Ray *ray, HitVisit *visit, void *user)
 {
+    Hit hit;
     Search search;
-    search_start(&search, w, ray, 0);          /* what is to be skipped was not gathered */
+    search_start(&search, w, ray, 0, &hit);    /* what is to be skipped was not gathered */
     search.visit = visit;
     search.user = user;
     for (uint32_t i = 0; i < shaft->n && !search.stop; i++)
@@ -320,8 +324,9 @@ static bool first_will_do(void *user, const Hit *hit)
 
 bool prim_meets(const World *w, uint32_t prim, const Ray *ray, uint32_t skip)
 {
+    Hit hit;
     Search search;
-    search_start(&search, w, ray, skip);
+    search_start(&search, w, ray, skip, &hit);
     search.visit = first_will_do;
     prim_test(&search, prim);
     return search.stop;
@@ -343,10 +348,10 @@ static void item_test(Search *search, uint32_t item)
 bool item_nearest(const World *w, uint32_t item, const Ray *ray, Hit *out)
 {
     Search search;
-    search_start(&search, w, ray, 0);
+    search_start(&search, w, ray, 0, out);
     search.above = is_node(item) ? w->csg[~item].parent : w->prim[item].csg;
     item_test(&search, item);
-    return search_end(&search, out);
+    return search.found;
 }
 
 /* ---- the surface ---- */
@@ -400,49 +405,54 @@ static bool is_zero(Vec3 a)
     return a.x == 0 && a.y == 0 && a.z == 0;
 }
 
-/* The largest number in what was added to make o + t d: rounding errors are relative to it. */
-static double magnitude(Vec3 o, Vec3 d, double t)
+/* The largest number in what was added to make o + t d, times SURFACE_ERROR: rounding errors are relative to it. */
+static double error_at(Vec3 o, Vec3 d, double t)
 {
     double from = max_abs(o), along = fabs(t) * max_abs(d);
-    return from > along ? from : along;
+    return SURFACE_ERROR * (from > along ? from : along);
 }
 
 void world_surface(const World *w, const Ray *ray, const Hit *hit, bool want_uv, Surface *out)
 {
     const Prim *prim = &w->prim[hit->prim];
+    const ShapeOps *ops = prim->ops;
     const Affine *place = prim->place;
-    Vec3 o = affine_point_back(place, ray->o), d = affine_vector_back(place, ray->d);
-    Vec3 local = add(o, scaled(d, hit->t));
-    memset(out, 0, offsetof(Surface, texture));    /* n_textures says which of those count */
-    out->back = false;
+    double world_error = error_at(ray->o, ray->d, hit->t);
+    Vec3 local = ray_at(ray, hit->t);
+    out->ray_d = ray->d;
+    out->error = world_error;
+    if (!place->identity) {
+        Vec3 o = affine_apply(place->inv, ray->o);
+        out->ray_d = affine_apply_linear(place->inv, ray->d);
+        out->error = error_at(o, out->ray_d, hit->t);
+        local = add(o, scaled(out->ray_d, hit->t));
+    }
     out->p = local;
-    out->ray_d = d;
-    out->want_uv = want_uv && (prim->ops->flags & SHAPE_HAS_UV);
-    out->error = SURFACE_ERROR * magnitude(o, d, hit->t);
-    prim->ops->surface(prim->data, hit, out);
+    out->normal = out->geometric = vec3(0, 0, 0);
+    out->uv = (Vec2){ 0, 0 };
+    out->want_uv = want_uv && (ops->flags & SHAPE_HAS_UV);
+    out->n_textures = 0;
+    ops->surface(prim->data, hit, out);
 
-    Vec3 n = out->normal, g = is_zero(out->geometric) ? out->normal : out->geometric;
+    Vec3 n = out->normal, g = out->geometric;
     if (is_zero(n))
-        n = g = negated(d);                    /* the tip of a cone: any normal will do */
-    out->normal = normalized(n);
-    out->geometric = same_point(n, g) ? out->normal : normalized(g);
+        n = g = negated(out->ray_d);           /* the tip of a cone: any normal will do */
+    bool smooth = !is_zero(g);
+    n = normalized(n);
     /* The same arithmetic with and without a place: one that only scales by a power of two must change no bit. */
-    bool same = same_point(n, g);
-    Vec3 across = affine_normal(place, out->geometric);
-    double world_error = SURFACE_ERROR * magnitude(ray->o, ray->d, hit->t), error = out->error / length(across);
-    out->error = error > world_error ? error : world_error;    /* planes a apart become planes a / |n'| apart */
-    out->geometric = normalized(across);
-    out->normal = same ? out->geometric : normalized(affine_normal(place, out->normal));
+    Vec3 across = affine_normal(place, smooth ? normalized(g) : n);
+    double stretch = length(across), error = out->error / stretch;
+    out->error = error > world_error ? error : world_error;    /* planes a apart become planes a / |across| apart */
+    g = normalized(across);
+    n = smooth ? normalized(affine_normal(place, n)) : g;
     if (!place->identity)
-        out->p = same_point(out->p, local) ? ray_at(ray, hit->t) : affine_point(place, out->p);
-    if ((prim->flags & PRIM_INVERSE) && !(prim->ops->flags & SHAPE_NORMAL_STAYS))
-        out->normal = negated(out->normal);
-    out->back = dot(out->normal, ray->d) > 0;
-    if (out->back)
-        out->normal = negated(out->normal);
-    if (dot(out->geometric, ray->d) > 0)
-        out->geometric = negated(out->geometric);
-    if (want_uv && !(prim->ops->flags & SHAPE_HAS_UV))
+        out->p = same_point(out->p, local) ? ray_at(ray, hit->t) : affine_apply(place->m, out->p);
+    if ((prim->flags & PRIM_INVERSE) && !(ops->flags & SHAPE_NORMAL_STAYS))
+        n = negated(n);
+    out->back = dot(n, ray->d) > 0;
+    out->normal = out->back ? negated(n) : n;
+    out->geometric = dot(g, ray->d) > 0 ? negated(g) : g;
+    if (want_uv && !out->want_uv)
         out->uv = (Vec2){ out->p.x / w->unit, out->p.y / w->unit };
     out->want_uv = want_uv;
     if (w->material[prim->material].flags & MATERIAL_CUTAWAY)

@@ -59,7 +59,7 @@ enum { SURFACE_MAX_TEXTURES = 16 };
 /* Filled by ShapeOps.surface in the prim's local space, then carried to world space by world_surface. */
 struct Surface {
     Vec3 p;                                    /* in: o + t d; the shape may move it onto the true surface */
-    Vec3 normal;                               /* out: outward, any length; smooth shapes: the shading normal */
+    Vec3 normal;                               /* out: outward, any length; smooth shapes: the shading normal; in: zero */
     Vec3 geometric;                            /* out if it differs from normal (smooth triangles); in: zero */
     Vec2 uv;                                   /* out, if want_uv and SHAPE_HAS_UV; for the rest scene coordinates x, y are taken */
     bool want_uv;                              /* in */
