@@ -58,52 +58,80 @@ static Vec3 vector(Parser *p)
     return num_vec3(p, &n);
 }
 
-static double checked(Parser *p, Loc loc, bool fine, double v, const char *what)
+/* Functions of one float. False if it is none, or one that has something to say about this argument. */
+bool math_of_one(int keyword, double v, double *out)
 {
-    if (!fine)
-        fail(p->diag, loc, "%s of negative number %f", what, v);
-    return v;
+    switch (keyword) {
+    case KW_ABS: *out = fabs(v); return true;
+    case KW_ACOS: *out = acos(v); return !(fabs(v) > 1);
+    case KW_ACOSH: *out = acosh(v); return true;
+    case KW_ASIN: *out = asin(v); return !(fabs(v) > 1);
+    case KW_ASINH: *out = asinh(v); return true;
+    case KW_ATAN: *out = atan(v); return true;
+    case KW_ATANH: *out = atanh(v); return true;
+    case KW_CEIL: *out = ceil(v); return true;
+    case KW_COS: *out = cos(v); return true;
+    case KW_COSH: *out = cosh(v); return true;
+    case KW_DEGREES: *out = v / DEGREE; return true;
+    case KW_EXP: *out = exp(v); return true;
+    case KW_FLOOR: *out = floor(v); return true;
+    case KW_INT: *out = int32(v); return true;
+    case KW_LN: *out = log(v); return !(v <= 0);
+    case KW_LOG: *out = log10(v); return !(v <= 0);
+    case KW_RADIANS: *out = v * DEGREE; return true;
+    case KW_SIN: *out = sin(v); return true;
+    case KW_SINH: *out = sinh(v); return true;
+    case KW_SQRT: *out = sqrt(v); return !(v < 0);
+    case KW_TAN: *out = tan(v); return true;
+    case KW_TANH: *out = tanh(v); return true;
+    default: return false;
+    }
+}
+
+static bool is_of_one(int keyword)
+{
+    switch (keyword) {
+    case KW_ABS: case KW_ACOS: case KW_ACOSH: case KW_ASIN: case KW_ASINH: case KW_ATAN: case KW_ATANH: case KW_CEIL:
+    case KW_COS: case KW_COSH: case KW_DEGREES: case KW_EXP: case KW_FLOOR: case KW_INT: case KW_LN: case KW_LOG:
+    case KW_RADIANS: case KW_SIN: case KW_SINH: case KW_SQRT: case KW_TAN: case KW_TANH:
+        return true;
+    default:
+        return false;
+    }
 }
 
 /* asin and acos go on with the nearest value that has one. */
-static double in_domain(Parser *p, Loc loc, double v, const char *name)
+static double out_of_domain(Parser *p, Loc loc, int keyword, double v)
 {
-    if (fabs(v) > 1)
-        warn(p->diag, loc, "Domain error in %s.", name);
-    return v > 1 ? 1 : v < -1 ? -1 : v;
+    static const char fails[] = "%s of negative number %f";
+    switch (keyword) {
+    case KW_ACOS: warn(p->diag, loc, "Domain error in acos."); return acos(v > 1 ? 1 : -1);
+    case KW_ASIN: warn(p->diag, loc, "Domain error in asin."); return asin(v > 1 ? 1 : -1);
+    case KW_LN: fail(p->diag, loc, fails, "ln", v);
+    case KW_LOG: fail(p->diag, loc, fails, "log", v);
+    default: fail(p->diag, loc, fails, "sqrt", v);
+    }
 }
 
-static bool of_one(Parser *p, int keyword, Num *out)
+static double of_one(Parser *p, int keyword)
 {
     Loc loc = p->token.loc;
-    double v;
+    double v = one(p), out;
+    return math_of_one(keyword, v, &out) ? out : out_of_domain(p, loc, keyword, v);
+}
+
+/* The same of two floats. */
+bool math_of_two(int keyword, double a, double b, double *out)
+{
     switch (keyword) {
-    case KW_ABS: v = fabs(one(p)); break;
-    case KW_ACOS: v = acos(in_domain(p, loc, one(p), "acos")); break;
-    case KW_ACOSH: v = acosh(one(p)); break;
-    case KW_ASIN: v = asin(in_domain(p, loc, one(p), "asin")); break;
-    case KW_ASINH: v = asinh(one(p)); break;
-    case KW_ATAN: v = atan(one(p)); break;
-    case KW_ATANH: v = atanh(one(p)); break;
-    case KW_CEIL: v = ceil(one(p)); break;
-    case KW_COS: v = cos(one(p)); break;
-    case KW_COSH: v = cosh(one(p)); break;
-    case KW_DEGREES: v = one(p) / DEGREE; break;
-    case KW_EXP: v = exp(one(p)); break;
-    case KW_FLOOR: v = floor(one(p)); break;
-    case KW_INT: v = int32(one(p)); break;
-    case KW_LN: v = one(p); v = log(checked(p, loc, !(v <= 0), v, "ln")); break;
-    case KW_LOG: v = one(p); v = log10(checked(p, loc, !(v <= 0), v, "log")); break;
-    case KW_RADIANS: v = one(p) * DEGREE; break;
-    case KW_SIN: v = sin(one(p)); break;
-    case KW_SINH: v = sinh(one(p)); break;
-    case KW_SQRT: v = one(p); v = sqrt(checked(p, loc, !(v < 0), v, "sqrt")); break;
-    case KW_TAN: v = tan(one(p)); break;
-    case KW_TANH: v = tanh(one(p)); break;
+    case KW_ATAN2: *out = atan2(a, b); return !(a == 0 && b == 0);
+    case KW_DIV: *out = int32(a / b); return true;
+    case KW_MOD: *out = fmod(a, b); return true;
+    case KW_POW: *out = pow(a, b); return !(a == 0 && b == 0);
+    case KW_MIN: *out = b < a ? b : a; return true;
+    case KW_MAX: *out = b > a ? b : a; return true;
     default: return false;
     }
-    set(out, v);
-    return true;
 }
 
 /* min, max, bitwise_*: one argument or more. */
@@ -118,8 +146,7 @@ static double of_many(Parser *p, int keyword)
             parse_mend(p, "A comma is missing");
         double w = expr_float(p);
         switch (keyword) {
-        case KW_MIN: v = w < v ? w : v; break;
-        case KW_MAX: v = w > v ? w : v; break;
+        case KW_MIN: case KW_MAX: math_of_two(keyword, v, w, &v); break;
         case KW_BITWISE_AND: b &= int32(w); break;
         case KW_BITWISE_OR: b |= int32(w); break;
         default: b ^= int32(w); break;
@@ -213,31 +240,21 @@ static double inside(Parser *p, Loc loc)
     return p->host->inside(p->host->user, o, at);
 }
 
+static double of_two(Parser *p, int keyword)
+{
+    Loc loc = p->token.loc;
+    double v[2], out;
+    floats(p, 2, v);
+    if (!math_of_two(keyword, v[0], v[1], &out))
+        fail(p->diag, loc, keyword == KW_ATAN2 ? "Domain error in atan2!" : "Domain error.");
+    return out;
+}
+
 static bool of_several(Parser *p, int keyword, Num *out)
 {
     Loc loc = p->token.loc;
-    double v[2];
     switch (keyword) {
-    case KW_ATAN2:
-        floats(p, 2, v);
-        if (v[0] == 0 && v[1] == 0)
-            fail(p->diag, loc, "Domain error in atan2!");
-        set(out, atan2(v[0], v[1]));
-        return true;
-    case KW_DIV:
-        floats(p, 2, v);
-        set(out, int32(v[0] / v[1]));
-        return true;
-    case KW_MOD:
-        floats(p, 2, v);
-        set(out, fmod(v[0], v[1]));
-        return true;
-    case KW_POW:
-        floats(p, 2, v);
-        if (v[0] == 0 && v[1] == 0)
-            fail(p->diag, loc, "Domain error.");
-        set(out, pow(v[0], v[1]));
-        return true;
+    case KW_ATAN2: case KW_DIV: case KW_MOD: case KW_POW: set(out, of_two(p, keyword)); return true;
     case KW_MIN: case KW_MAX: case KW_BITWISE_AND: case KW_BITWISE_OR: case KW_BITWISE_XOR:
         set(out, of_many(p, keyword));
         return true;
@@ -249,11 +266,6 @@ static bool of_several(Parser *p, int keyword, Num *out)
     case KW_DIMENSIONS: set(out, dimensions(p)); return true;
     case KW_DIMENSION_SIZE: set(out, dimension_size(p)); return true;
     case KW_INSIDE: set(out, inside(p, loc)); return true;
-    case KW_VLENGTH:
-        parse_expect(p, TOK_LPAREN);
-        set(out, length(vector(p)));
-        parse_expect(p, TOK_RPAREN);
-        return true;
     default: return false;
     }
 }
@@ -280,6 +292,20 @@ static Vec3 axis_rotated(Vec3 v, Vec3 axis, double degrees)
                 v.x * (p * r * (1 - c) - q * s) + v.y * (q * r * (1 - c) + p * s) + v.z * (r * r + c * (1 - r * r)));
 }
 
+/* Functions of vectors and, last, a float. False if it is none, or one that has something to say about its arguments. */
+bool math_of_vectors(int keyword, Vec3 a, Vec3 b, double angle, Num *out)
+{
+    switch (keyword) {
+    case KW_VLENGTH: set(out, length(a)); return true;
+    case KW_VDOT: set(out, dot(a, b)); return true;
+    case KW_VNORMALIZE: set_vec3(out, normalized(a)); return length2(a) != 0;
+    case KW_VCROSS: set_vec3(out, cross(a, b)); return true;
+    case KW_VROTATE: set_vec3(out, rotated(a, b)); return true;
+    case KW_VAXIS_ROTATE: set_vec3(out, axis_rotated(a, b, angle)); return true;
+    default: return false;
+    }
+}
+
 /* POV: lambda and omega are kept in single precision. */
 static Vec3 turbulence(Parser *p)
 {
@@ -293,6 +319,16 @@ static Vec3 turbulence(Parser *p)
     return noise_vector_turbulence(at, octaves < 1 ? 1 : octaves > 10 ? 10 : octaves, omega, lambda);
 }
 
+/* Where a ray meets the object and the normal there; both 0 if it does not. */
+Vec3 math_trace(Parser *p, const Object *o, Vec3 from, Vec3 direction, Vec3 *normal)
+{
+    Vec3 point = vec3(0, 0, 0);
+    *normal = vec3(0, 0, 0);
+    if (!p->host->trace(p->host->user, o, from, normalized(direction), &point, normal))
+        point = *normal = vec3(0, 0, 0);
+    return point;
+}
+
 /* trace(Object, from, direction [, N]): N is a vector that exists and takes the normal. */
 static Vec3 trace(Parser *p)
 {
@@ -300,7 +336,7 @@ static Vec3 trace(Parser *p)
     parse_comma(p);
     Vec3 from = vector(p);
     parse_comma(p);
-    Vec3 direction = normalized(vector(p));
+    Vec3 direction = vector(p);
     Value *target = NULL;
     if (parse_accept(p, TOK_COMMA)) {
         parse_peek(p);
@@ -309,9 +345,7 @@ static Vec3 trace(Parser *p)
             parse_expected(p, "vector identifier");
         p->have = false;
     }
-    Vec3 point = vec3(0, 0, 0), normal = vec3(0, 0, 0);
-    if (!p->host->trace(p->host->user, o, from, direction, &point, &normal))
-        point = normal = vec3(0, 0, 0);
+    Vec3 normal, point = math_trace(p, o, from, direction, &normal);
     if (target)
         value_set_number(p, target, &(Num){ { normal.x, normal.y, normal.z }, 3 });
     return point;
@@ -329,52 +363,41 @@ static Vec3 extent(Parser *p, bool max)
     return max ? b.hi : b.lo;
 }
 
-static Vec3 of_vectors(Parser *p, int keyword, Loc loc)
+static void of_vectors(Parser *p, int keyword, Num *out)
 {
-    if (keyword == KW_VTURBULENCE)
-        return turbulence(p);
-    if (keyword == KW_TRACE)
-        return trace(p);
-    if (keyword == KW_MIN_EXTENT || keyword == KW_MAX_EXTENT)
-        return extent(p, keyword == KW_MAX_EXTENT);
-    Vec3 a = vector(p);
-    if (keyword == KW_VNORMALIZE) {
-        if (length2(a) == 0)
-            warn(p->diag, loc, "Normalizing zero-length vector.");
-        return normalized(a);
+    Loc loc = p->token.loc;
+    parse_expect(p, TOK_LPAREN);
+    Vec3 a = vector(p), b = a;
+    double angle = 0;
+    if (keyword != KW_VLENGTH && keyword != KW_VNORMALIZE) {
+        parse_comma(p);
+        b = vector(p);
     }
-    parse_comma(p);
-    Vec3 b = vector(p);
-    if (keyword == KW_VCROSS)
-        return cross(a, b);
-    if (keyword == KW_VROTATE)
-        return rotated(a, b);
-    parse_comma(p);
-    return axis_rotated(a, b, expr_float(p));
+    if (keyword == KW_VAXIS_ROTATE) {
+        parse_comma(p);
+        angle = expr_float(p);
+    }
+    if (!math_of_vectors(keyword, a, b, angle, out))
+        warn(p->diag, loc, "Normalizing zero-length vector.");
+    parse_expect(p, TOK_RPAREN);
 }
 
 bool builtin_number(Parser *p, int keyword, Num *out)
 {
-    Loc loc = p->token.loc;
-    if (of_one(p, keyword, out) || of_several(p, keyword, out))
+    if (is_of_one(keyword)) {
+        set(out, of_one(p, keyword));
         return true;
+    }
     switch (keyword) {
-    case KW_VDOT: {
+    case KW_VLENGTH: case KW_VDOT: case KW_VNORMALIZE: case KW_VCROSS: case KW_VROTATE: case KW_VAXIS_ROTATE:
+        of_vectors(p, keyword, out);
+        return true;
+    case KW_VTURBULENCE: case KW_TRACE: case KW_MIN_EXTENT: case KW_MAX_EXTENT:
         parse_expect(p, TOK_LPAREN);
-        Vec3 a = vector(p);
-        parse_comma(p);
-        set(out, dot(a, vector(p)));
+        set_vec3(out, keyword == KW_VTURBULENCE ? turbulence(p) : keyword == KW_TRACE ? trace(p) : extent(p, keyword == KW_MAX_EXTENT));
         parse_expect(p, TOK_RPAREN);
         return true;
-    }
-    case KW_VTURBULENCE: case KW_TRACE: case KW_MIN_EXTENT: case KW_MAX_EXTENT: case KW_VNORMALIZE: case KW_VCROSS:
-    case KW_VROTATE: case KW_VAXIS_ROTATE: {
-        parse_expect(p, TOK_LPAREN);
-        Vec3 v = of_vectors(p, keyword, loc);
-        parse_expect(p, TOK_RPAREN);
-        set_vec3(out, v);
-        return true;
-    }
-    default: return false;
+    default:
+        return of_several(p, keyword, out);
     }
 }

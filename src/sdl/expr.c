@@ -325,10 +325,8 @@ static void sum_rest(Parser *p, Num *out)
 
 void expr_sum(Parser *p, Num *out)
 {
-    if (fast_sum(p, &out->v[0])) {
-        out->terms = 1;
+    if (fast_sum(p, out))
         return;
-    }
     factor(p, out);
     if (p->version < 150)                      /* operators need parentheses */
         return;

@@ -1,8 +1,8 @@
 /* fast.c - the plain arithmetic of loops and macros, straight from their tokens.
  *
- * Most expressions in a loop are sums and products of floats. These are evaluated here without the look-ahead, in the same
- * order and with the same results as expr.c. Whatever is not as plain (vectors, macros, directives, warnings, mistakes)
- * makes the attempt fail before anything has been taken, and expr.c starts from the same token. */
+ * Most expressions in a loop are sums and products of floats and vectors. These are evaluated here without the look-ahead, in the
+ * same order and with the same results as expr.c. Whatever is not as plain (macros, directives, warnings, mistakes) makes the
+ * attempt fail before anything has been taken, and expr.c starts from the same token. */
 #include <math.h>
 
 #include "sdl/parser.h"
@@ -16,14 +16,25 @@ typedef struct Fast {
     int depth;
     unsigned n_undo;                           /* random streams that were asked: put back if the attempt fails */
     struct { uint32_t stream, state; } undo[MAX_UNDO];
+    Value *target;                             /* of trace(): takes the normal when all is well; may not be read before */
+    Vec3 normal;
 } Fast;
 
-static double sum(Fast *f);
+static void sum(Fast *f, Num *out);
+static void full(Fast *f, Num *out);
 
+/* Nothing comes behind a failure, so that all loops end. */
 static double give_up(Fast *f)
 {
     f->failed = true;
+    f->at = f->end;
     return 0;
+}
+
+static void set(Num *out, double v)
+{
+    out->v[0] = v;
+    out->terms = 1;
 }
 
 static inline int next_kind(const Fast *f)
@@ -39,54 +50,121 @@ static inline bool take(Fast *f, int kind)
     return true;
 }
 
-static double component(Fast *f, const Value *v)
+static inline void expect(Fast *f, int kind)
 {
-    if (v->kind != VALUE_NUMBER)
-        return give_up(f);
-    if (next_kind(f) != TOK_DOT)
-        return v->terms == 1 ? v->v[0] : give_up(f);
-    f->at++;
+    if (!take(f, kind))
+        give_up(f);
+}
+
+static double float_sum(Fast *f)
+{
+    Num n;
+    sum(f, &n);
+    return n.terms == 1 ? n.v[0] : give_up(f);
+}
+
+static Vec3 vec3_sum(Fast *f)
+{
+    Num n;
+    sum(f, &n);
+    if (n.terms > 3) {
+        give_up(f);
+        n.terms = 3;
+    }
+    num_promote(&n, 3);
+    return vec3(n.v[0], n.v[1], n.v[2]);
+}
+
+/* ---- names ---- */
+
+static void component(Fast *f, Num *out)
+{
     int i;
+    f->at++;
     switch (next_kind(f)) {
     case KW_X: case KW_U: case KW_RED: i = 0; break;
     case KW_Y: case KW_V: case KW_GREEN: i = 1; break;
     case KW_Z: case KW_BLUE: i = 2; break;
     case KW_T: case KW_FILTER: i = 3; break;
     case KW_TRANSMIT: i = 4; break;
-    default: return give_up(f);
+    default: give_up(f); return;
+    }
+    if (i >= out->terms) {
+        give_up(f);
+        return;
     }
     f->at++;
-    return i < v->terms && next_kind(f) != TOK_DOT ? v->v[i] : give_up(f);
+    set(out, out->v[i]);
 }
 
-static double name(Fast *f, const Sym *s)
+/* At the '[' behind an array: the item. */
+static Value *subscripts(Fast *f, Value *v, ValueArray **owner)
 {
-    const Binding *b = s->binding;
-    if (!b || b->deprecated)
-        return give_up(f);
-    const Value *v = b->value;
-    while (v->kind == VALUE_ARRAY) {
-        const ValueArray *a = v->array;
+    do {
+        ValueArray *a = *owner = v->array;
         uint32_t at = 0;
         for (uint32_t i = 0; i < a->n_dimensions; i++) {
-            if (!take(f, TOK_LBRACKET))
-                return give_up(f);
-            double k = sum(f) + EPSILON;
-            if (f->failed || !(k >= 0 && k < a->size[i]) || !take(f, TOK_RBRACKET))
-                return give_up(f);
+            expect(f, TOK_LBRACKET);
+            double k = float_sum(f) + EPSILON;
+            expect(f, TOK_RBRACKET);
+            if (f->failed || !(k >= 0 && k < a->size[i])) {
+                give_up(f);
+                return v;
+            }
             at = at * a->size[i] + (uint32_t)k;
         }
         v = &a->item[at];
-    }
-    return component(f, v);
+    } while (v->kind == VALUE_ARRAY);
+    return v;
 }
+
+/* F(a, b) */
+static __attribute__((noinline)) void function_call(Fast *f, const Function *function, Num *out)
+{
+    double argument[FUNC_MAX_PARAMETERS];
+    int n = func_parameters(function);
+    expect(f, TOK_LPAREN);
+    for (int i = 0; i < n; i++) {
+        argument[i] = float_sum(f);
+        expect(f, i + 1 < n ? TOK_COMMA : TOK_RPAREN);
+    }
+    if (f->failed)
+        return;
+    out->terms = func_terms(function);
+    if (out->terms == 1)
+        out->v[0] = func_call(function, argument);
+    else
+        func_call_vector(function, argument, out->v);
+}
+
+static void name(Fast *f, const Sym *s, Num *out)
+{
+    const Binding *b = s->binding;
+    if (!b || b->deprecated) {
+        give_up(f);
+        return;
+    }
+    Value *v = b->value;
+    ValueArray *owner;
+    if (v->kind == VALUE_ARRAY)
+        v = subscripts(f, v, &owner);
+    if (v->kind == VALUE_NUMBER && v != f->target)
+        num_from_value(out, v);
+    else if (v->kind == VALUE_FUNCTION)
+        function_call(f, v->function, out);
+    else
+        give_up(f);
+}
+
+/* ---- functions ---- */
 
 static double parenthesised(Fast *f)
 {
-    if (!take(f, TOK_LPAREN))
-        return give_up(f);
-    double v = sum(f);
-    return take(f, TOK_RPAREN) && next_kind(f) != TOK_DOT ? v : give_up(f);
+    Num n;
+    expect(f, TOK_LPAREN);
+    full(f, &n);
+    expect(f, TOK_RPAREN);
+    return n.terms == 1 ? n.v[0] : give_up(f);
 }
 
 static double rand_of(Fast *f)
@@ -100,93 +178,238 @@ static double rand_of(Fast *f)
     return random_next(&f->p->random.data[stream]);
 }
 
-/* Of two floats with a comma between them. */
 static double of_two(Fast *f, int keyword)
 {
-    if (!take(f, TOK_LPAREN))
-        return give_up(f);
-    double a = sum(f);
-    if (!take(f, TOK_COMMA))
-        return give_up(f);
-    double b = sum(f);
-    if (!take(f, TOK_RPAREN) || next_kind(f) == TOK_DOT)
-        return give_up(f);
-    return keyword == KW_MOD ? fmod(a, b) : keyword == KW_MIN ? (b < a ? b : a) : b > a ? b : a;
+    double out = 0;
+    expect(f, TOK_LPAREN);
+    double a = float_sum(f);
+    expect(f, TOK_COMMA);
+    double b = float_sum(f);
+    expect(f, TOK_RPAREN);
+    return !f->failed && math_of_two(keyword, a, b, &out) ? out : give_up(f);
 }
 
-static double function(Fast *f, int keyword)
+static void of_vectors(Fast *f, int keyword, Num *out)
 {
-    if (keyword == KW_RAND)
-        return rand_of(f);
-    if (keyword == KW_MOD || keyword == KW_MIN || keyword == KW_MAX)
-        return of_two(f, keyword);
-    double v = parenthesised(f);
+    expect(f, TOK_LPAREN);
+    Vec3 a = vec3_sum(f), b = a;
+    double angle = 0;
+    if (keyword != KW_VLENGTH && keyword != KW_VNORMALIZE) {
+        expect(f, TOK_COMMA);
+        b = vec3_sum(f);
+    }
+    if (keyword == KW_VAXIS_ROTATE) {
+        expect(f, TOK_COMMA);
+        angle = float_sum(f);
+    }
+    expect(f, TOK_RPAREN);
+    if (f->failed || !math_of_vectors(keyword, a, b, angle, out))
+        give_up(f);
+}
+
+/* What a name alone holds. */
+static Value *held(Fast *f)
+{
+    const Binding *b = next_kind(f) == TOK_NAME ? f->at->sym->binding : NULL;
+    if (!b || b->deprecated) {
+        give_up(f);
+        return NULL;
+    }
+    f->at++;
+    return b->value;
+}
+
+static void trace(Fast *f, Num *out)
+{
+    expect(f, TOK_LPAREN);
+    const Value *o = held(f);
+    if (o == NULL || o->kind != VALUE_BLOCK || o->block != BLOCK_OBJECT || f->target) {
+        give_up(f);
+        return;
+    }
+    expect(f, TOK_COMMA);
+    Vec3 from = vec3_sum(f);
+    expect(f, TOK_COMMA);
+    Vec3 direction = vec3_sum(f), normal;
+    Value *target = NULL;
+    if (take(f, TOK_COMMA)) {
+        target = held(f);
+        if (target == NULL || target->kind != VALUE_NUMBER || target->terms != 3)
+            give_up(f);
+    }
+    expect(f, TOK_RPAREN);
+    if (f->failed)
+        return;
+    Vec3 point = math_trace(f->p, o->pointer, from, direction, &normal);
+    f->target = target;
+    f->normal = normal;
+    *out = (Num){ { point.x, point.y, point.z }, 3 };
+}
+
+static void function(Fast *f, int keyword, Num *out)
+{
     switch (keyword) {
-    case KW_ABS: return fabs(v);
-    case KW_CEIL: return ceil(v);
-    case KW_COS: return cos(v);
-    case KW_DEGREES: return v / (PI / 180);
-    case KW_EXP: return exp(v);
-    case KW_FLOOR: return floor(v);
-    case KW_RADIANS: return v * (PI / 180);
-    case KW_SIN: return sin(v);
-    case KW_SQRT: return v >= 0 ? sqrt(v) : give_up(f);
-    case KW_TAN: return tan(v);
-    default: return give_up(f);
+    case KW_RAND: set(out, rand_of(f)); return;
+    case KW_TRACE: trace(f, out); return;
+    case KW_ATAN2: case KW_DIV: case KW_MAX: case KW_MIN: case KW_MOD: case KW_POW: set(out, of_two(f, keyword)); return;
+    case KW_VLENGTH: case KW_VDOT: case KW_VNORMALIZE: case KW_VCROSS: case KW_VROTATE: case KW_VAXIS_ROTATE:
+        of_vectors(f, keyword, out);
+        return;
+    default: break;
     }
+    double v = next_kind(f) == TOK_LPAREN ? parenthesised(f) : give_up(f);
+    if (f->failed || !math_of_one(keyword, v, &out->v[0]))
+        give_up(f);
 }
 
-static double factor(Fast *f)
-{
-    if (f->at == f->end || f->failed || ++f->depth > DEEPEST)
-        return give_up(f);
-    const Token *t = f->at++;
-    double v;
-    switch (t->kind) {
-    case TOK_NUMBER: v = t->number; break;
-    case TOK_NAME: v = name(f, t->sym); break;
-    case TOK_MINUS: v = -factor(f); break;
-    case TOK_PLUS: v = factor(f); break;
-    case TOK_LPAREN:
-        f->at--;
-        v = parenthesised(f);
-        break;
-    case KW_PI: v = PI; break;
-    default: v = t->kind < N_KEYWORDS ? function(f, t->kind) : give_up(f);
-    }
-    f->depth--;
-    return v;
-}
+/* ---- operators ---- */
 
-static double product(Fast *f)
+static void vector_literal(Fast *f, Num *out)
 {
-    double v = factor(f);
-    for (;;) {
-        if (take(f, TOK_STAR)) {
-            v *= factor(f);
-        } else if (take(f, TOK_SLASH)) {
-            double w = factor(f);
-            if (w == 0)
-                return give_up(f);             /* worth a warning */
-            v /= w;
-        } else {
-            return v;
+    int n = 0;
+    do {
+        if (n == 5) {
+            give_up(f);
+            return;
         }
+        out->v[n++] = float_sum(f);
+    } while (take(f, TOK_COMMA));
+    expect(f, TOK_GREATER);
+    if (n < 2)
+        give_up(f);
+    out->terms = n;
+}
+
+static void unit(Num *out, int axis)
+{
+    *out = (Num){ { axis == 0, axis == 1, axis == 2 }, 3 };
+}
+
+static void factor(Fast *f, Num *out)
+{
+    set(out, 0);
+    if (f->at == f->end || ++f->depth > DEEPEST) {
+        give_up(f);
+        return;
+    }
+    const Token *t = f->at++;
+    switch (t->kind) {
+    case TOK_NUMBER: out->v[0] = t->number; break;
+    case TOK_NAME: name(f, t->sym, out); break;
+    case TOK_MINUS:
+        factor(f, out);
+        for (int i = 0; i < out->terms; i++)
+            out->v[i] = -out->v[i];
+        break;
+    case TOK_PLUS: factor(f, out); break;
+    case TOK_LPAREN:
+        full(f, out);
+        expect(f, TOK_RPAREN);
+        break;
+    case TOK_LESS: vector_literal(f, out); break;
+    case KW_PI: out->v[0] = PI; break;
+    case KW_X: unit(out, 0); break;
+    case KW_Y: unit(out, 1); break;
+    case KW_Z: unit(out, 2); break;
+    case KW_TRUE: case KW_YES: case KW_ON: out->v[0] = 1; break;
+    case KW_FALSE: case KW_NO: case KW_OFF: break;
+    default:
+        if (t->kind < N_KEYWORDS)
+            function(f, t->kind, out);
+        else
+            give_up(f);
+    }
+    while (next_kind(f) == TOK_DOT)
+        component(f, out);
+    f->depth--;
+}
+
+static double of_floats(Fast *f, int kind, double a, double b)
+{
+    switch (kind) {
+    case TOK_PLUS: return a + b;
+    case TOK_MINUS: return a - b;
+    case TOK_STAR: return a * b;
+    case TOK_SLASH: return b == 0 ? give_up(f) : a / b;        /* worth a warning */
+    default: return expr_relation(kind, a, b);
     }
 }
 
-static double sum(Fast *f)
+static inline void operate(Fast *f, int kind, Num *a, Num *b)
 {
-    double v = product(f);
-    for (;;) {
-        if (take(f, TOK_PLUS))
-            v += product(f);
-        else if (take(f, TOK_MINUS))
-            v -= product(f);
-        else
-            return v;
+    if (a->terms != b->terms) {
+        num_promote(a, b->terms);
+        num_promote(b, a->terms);
+    }
+    for (int i = 0; i < a->terms; i++)
+        a->v[i] = of_floats(f, kind, a->v[i], b->v[i]);
+}
+
+static void product(Fast *f, Num *out)
+{
+    factor(f, out);
+    for (int kind; (kind = next_kind(f)) == TOK_STAR || kind == TOK_SLASH;) {
+        Num b;
+        f->at++;
+        factor(f, &b);
+        operate(f, kind, out, &b);
     }
 }
+
+static void sum(Fast *f, Num *out)
+{
+    product(f, out);
+    for (int kind; (kind = next_kind(f)) == TOK_PLUS || kind == TOK_MINUS;) {
+        Num b;
+        f->at++;
+        product(f, &b);
+        operate(f, kind, out, &b);
+    }
+}
+
+static bool is_relation(int kind)
+{
+    return kind == TOK_LESS || kind == TOK_GREATER || kind == TOK_LESS_EQUAL || kind == TOK_GREATER_EQUAL || kind == TOK_EQUAL
+        || kind == TOK_NOT_EQUAL;
+}
+
+static void comparison(Fast *f, Num *out)
+{
+    sum(f, out);
+    for (int kind; is_relation(kind = next_kind(f));) {
+        Num b;
+        f->at++;
+        sum(f, &b);
+        operate(f, kind, out, &b);
+    }
+}
+
+static bool truth(Fast *f, const Num *n)
+{
+    return n->terms == 1 ? fabs(n->v[0]) > EPSILON : give_up(f) > 0;
+}
+
+/* comparison { &| comparison } [ ? full : full ]: the logic on one level, from left to right. */
+static void full(Fast *f, Num *out)
+{
+    comparison(f, out);
+    for (int kind; (kind = next_kind(f)) == TOK_AND || kind == TOK_OR;) {
+        Num b;
+        f->at++;
+        comparison(f, &b);
+        bool left = truth(f, out), right = truth(f, &b);
+        set(out, kind == TOK_AND ? left && right : left || right);
+    }
+    if (!take(f, TOK_QUESTION))
+        return;
+    bool first = truth(f, out);
+    Num other;
+    full(f, first ? out : &other);
+    expect(f, TOK_COLON);
+    full(f, first ? &other : out);
+}
+
+/* ---- what the others call ---- */
 
 static inline bool start(Parser *p, Fast *f)
 {
@@ -199,6 +422,7 @@ static inline bool start(Parser *p, Fast *f)
     f->failed = false;
     f->depth = 0;
     f->n_undo = 0;
+    f->target = NULL;
     return true;
 }
 
@@ -213,6 +437,8 @@ static inline void finish(Parser *p, const Fast *f)
 {
     Reader *r = &p->reader[p->n_readers - 1];
     r->at = (uint32_t)(f->at - r->tokens);
+    if (f->target)
+        value_set_number(p, f->target, &(Num){ { f->normal.x, f->normal.y, f->normal.z }, 3 });
 }
 
 /* What comes next certainly ends a sum: no macro or directive that might go on with it. */
@@ -224,65 +450,65 @@ static bool at_end_of_sum(const Fast *f)
     }
 }
 
-bool fast_sum(Parser *p, double *out)
+bool fast_sum(Parser *p, Num *out)
 {
     Fast f;
     if (!start(p, &f))
         return false;
-    *out = sum(&f);
+    sum(&f, out);
     if (f.failed || !at_end_of_sum(&f))
         return abandon(&f);
     finish(p, &f);
     return true;
 }
 
-static bool is_relation(int kind)
-{
-    return kind == TOK_LESS || kind == TOK_GREATER || kind == TOK_LESS_EQUAL || kind == TOK_GREATER_EQUAL || kind == TOK_EQUAL
-        || kind == TOK_NOT_EQUAL;
-}
-
-static double comparison(Fast *f)
-{
-    double v = sum(f);
-    for (int kind; is_relation(kind = next_kind(f)) && !f->failed;) {
-        f->at++;
-        v = expr_relation(kind, v, sum(f));
-    }
-    return v;
-}
-
-/* ( comparison { &| comparison } ): all on one level, from left to right. */
 bool fast_condition(Parser *p, bool *out)
 {
     Fast f;
-    if (!start(p, &f) || !take(&f, TOK_LPAREN))
+    if (!start(p, &f))
         return false;
-    bool truth = fabs(comparison(&f)) > EPSILON;
-    while (!f.failed && (next_kind(&f) == TOK_AND || next_kind(&f) == TOK_OR)) {
-        bool both = f.at++->kind == TOK_AND, other = fabs(comparison(&f)) > EPSILON;
-        truth = both ? truth && other : truth || other;
-    }
-    if (!take(&f, TOK_RPAREN) || f.failed)
+    *out = fabs(parenthesised(&f)) > EPSILON;
+    if (f.failed)
         return abandon(&f);
-    *out = truth;
     finish(p, &f);
     return true;
 }
 
-/* NAME = sum ; for a name that holds a number already, where the new value will be kept. */
+/* [subscripts] = sum ; into an item that may hold numbers like this one. */
+static bool declare_item(Parser *p, Fast *f, Value *array)
+{
+    ValueArray *owner;
+    Num n;
+    Value *item = subscripts(f, array, &owner);
+    expect(f, TOK_EQUAL);
+    sum(f, &n);
+    expect(f, TOK_SEMICOLON);
+    if (f->failed || next_kind(f) == TOK_SEMICOLON || owner->type.kind != VALUE_NUMBER || owner->type.terms != n.terms)
+        return abandon(f);
+    finish(p, f);
+    value_set_number(p, item, &n);
+    return true;
+}
+
+/* NAME = sum ; for a name that holds a number or nothing. */
 bool fast_declare(Parser *p, bool local)
 {
     Fast f;
+    Num n;
     if (!start(p, &f) || next_kind(&f) != TOK_NAME)
         return false;
-    Binding *b = f.at++->sym->binding;
-    if (!b || b->value->kind != VALUE_NUMBER || b->deprecated || (local && b->table != p->n_tables - 1) || !take(&f, TOK_EQUAL))
+    Sym *s = f.at++->sym;
+    Binding *b = s->binding;
+    if (b && !b->deprecated && b->value->kind == VALUE_ARRAY && next_kind(&f) == TOK_LBRACKET)
+        return declare_item(p, &f, b->value);
+    if ((b && (b->deprecated || (b->value->kind != VALUE_NUMBER && b->value->kind != VALUE_NONE))) || !take(&f, TOK_EQUAL))
         return false;
-    double v = sum(&f);
+    sum(&f, &n);
     if (f.failed || !take(&f, TOK_SEMICOLON) || next_kind(&f) == TOK_SEMICOLON)
         return abandon(&f);
-    value_set_number(p, b->value, &(Num){ { v }, 1 });
     finish(p, &f);
+    if (!b || (local && b->table != p->n_tables - 1))
+        b = symbol_declare(p, s, local, p->n_tables - 1);
+    value_set_number(p, b->value, &n);
     return true;
 }

@@ -225,13 +225,18 @@ static inline double random_next(uint32_t *state)         /* 01-language, sectio
 }
 
 /* fast.c: true if it could be done on the spot; else nothing has been taken. */
-bool fast_sum(Parser *p, double *out);
+bool fast_sum(Parser *p, Num *out);
 bool fast_condition(Parser *p, bool *out);
 bool fast_declare(Parser *p, bool local);
 
 /* builtin_math.c, builtin_text.c: false if the keyword in the look-ahead is not theirs. */
 bool builtin_number(Parser *p, int keyword, Num *out);
 bool builtin_text_number(Parser *p, int keyword, Num *out);
+/* Their arithmetic alone: false if it is another function, or has something to say about these arguments. */
+bool math_of_one(int keyword, double v, double *out);
+bool math_of_two(int keyword, double a, double b, double *out);
+bool math_of_vectors(int keyword, Vec3 a, Vec3 b, double angle, Num *out);
+Vec3 math_trace(Parser *p, const Object *o, Vec3 from, Vec3 direction, Vec3 *normal);   /* the point; both 0 if nothing is met */
 bool kind_starts_string(const Parser *p);
 Str string_expression(Parser *p, bool file_name);          /* in temp memory; fails if no string comes */
 int string_compare(Str a, Str b);              /* by character: the difference, as strcmp() of the language */
