@@ -95,6 +95,7 @@ double code_fold(unsigned op, double a, double b, double c)
     const double k = b;
     switch (op) {
 #define OWN(name, value, holds, otherwise) case name: return holds ? value : otherwise;
+#define OWN_BINARY OWN
 #define UNARY(name, value) case name: return value;
 #define BINARY(name, value) case name: return value;
 #define TERNARY(name, value) case name: return value;

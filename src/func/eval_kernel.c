@@ -132,25 +132,29 @@ INLINE const double *run_code(const Function *f, double *r, const int width, int
         }                                                                                                              \
         break;                                                                                                         \
     }
-#define OWN(op, value, holds, otherwise)                                                                               \
+#define OWN_EACH(op, needs, value, holds, otherwise)                                                                   \
     case op: {                                                                                                         \
-        double from[width];                                                                                            \
-        for (int l = 0; l < width; l++)                                                                                \
-            from[l] = x[l];                                                                                            \
+        needs                                                                                                          \
+        double own[width];                                                                                             \
         int odd = 0;                                                                                                   \
         LANE_LOOP                                                                                                      \
         for (int l = 0; l < width; l++) {                                                                              \
-            double a = from[l];                                                                                        \
-            d[l] = value;                                                                                              \
+            double a = x[l];                                                                                           \
+            own[l] = value;                                                                                            \
             odd |= !(holds);                                                                                           \
         }                                                                                                              \
         for (int l = 0; odd && l < width; l++) {                                                                       \
-            double a = from[l];                                                                                        \
+            double a = x[l];                                                                                           \
             if (!(holds))                                                                                              \
-                d[l] = otherwise;                                                                                      \
+                own[l] = otherwise;                                                                                    \
         }                                                                                                              \
+        for (int l = 0; l < width; l++)                                                                                \
+            d[l] = own[l];                                                                                             \
         break;                                                                                                         \
     }
+#define OWN(op, value, holds, otherwise) OWN_EACH(op, , value, holds, otherwise)
+#define OWN_BINARY(op, value, holds, otherwise)                                                                        \
+    OWN_EACH(op, const double *y = r + i->b * width;, (b_of(y[l], value)), (b_of(y[l], holds)), (b_of(y[l], otherwise)))
 #define UNARY(op, value) EACH(op, , value)
 #define BINARY(op, value) EACH(op, const double *y = r + i->b * width;, (b_of(y[l], value)))
 #define TERNARY(op, value)                                                                                             \

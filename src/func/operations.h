@@ -1,6 +1,6 @@
 /* operations.h - what each operation computes, once for folding and for every kernel: UNARY(op, value of a)...
  *
- * OWN(op, value, holds, otherwise): `value` where `holds`, as vector code; else `otherwise`. */
+ * OWN(op, value, holds, otherwise), OWN_BINARY: `value` where `holds`, as vector code; else `otherwise`. */
 UNARY(FUNC_NEG, -a)
 UNARY(FUNC_ABS, fabs(a))
 UNARY(FUNC_FLOOR, floor(a))
@@ -37,7 +37,7 @@ BINARY(FUNC_AND, a != 0 && b != 0 ? 1.0 : 0.0)
 BINARY(FUNC_OR, a != 0 || b != 0 ? 1.0 : 0.0)
 BINARY(FUNC_POW, pow(a, b))
 BINARY(FUNC_MOD, fmod(a, b))
-BINARY(FUNC_ATAN2, atan2(a, b))
+OWN_BINARY(FUNC_ATAN2, elementary_atan2(a, b), elementary_atan2_holds(a, b), atan2(a, b))
 BINARY(FUNC_MIN, a < b ? a : b)
 BINARY(FUNC_MAX, a > b ? a : b)
 TERNARY(FUNC_IF_NEGATIVE, a < 0 ? b : c)
@@ -50,6 +50,7 @@ WITH_K(CODE_RSUB_K, k - a)
 WITH_K(CODE_MUL_K, a * k)
 WITH_K(CODE_RDIV_K, k / a)
 #undef OWN
+#undef OWN_BINARY
 #undef UNARY
 #undef BINARY
 #undef TERNARY

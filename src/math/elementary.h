@@ -1,4 +1,4 @@
-/* elementary.h - sine, cosine, exponential and logarithm without branches, so that loops over them become vector code.
+/* elementary.h - sine, cosine, arc tangent, exponential and logarithm without branches, so that loops over them become vector code.
  *
  * Reduction and polynomials are those of fdlibm (Sun Microsystems, 1993); errors stay below one unit in the last place. Each is
  * good for the arguments its _holds() accepts; for others ask the C library. Only plain operations: all instruction sets and widths
@@ -84,6 +84,39 @@ static inline double elementary_ln(double x)
                       + w * (2.857142874366239149e-01 + w * (1.818357216161805012e-01 + w * 1.479819860511658591e-01)));
     double half = 0.5 * f * f;
     return k * 6.93147180369123816490e-01 - ((half - (s * (half + (odd + even)) + k * 1.90821492927058770002e-10)) - f);
+}
+
+static inline bool elementary_atan2_holds(double y, double x)
+{
+    double large = fabs(x) + fabs(y);
+    return (large > 0x1p-500) & (large < 0x1p500);
+}
+
+static inline double elementary_atan2(double y, double x)
+{
+    double u = fabs(x), v = fabs(y), low = u < v ? u : v, high = u < v ? v : u;
+    /* atan(low / high) = atan(c) + atan((low - c high) / (high + c low)), c = 0, 1/2 or 1 */
+    double some = low > 0.4375 * high ? 1.0 : 0.0, more = low > 0.6875 * high ? 1.0 : 0.0;
+    double c = 0.5 * some + 0.5 * more;
+    double angle = 4.63647609000806093515e-01 * some + 3.21750554396642193401e-01 * more;
+    double angle_rest = 2.26987774529616870924e-17 * some + 7.9173925017e-18 * more;
+    double t = (low - c * high) / (high + c * low), z = t * t, w = z * z;
+    double odd = z * (3.33333333333329318027e-01
+                      + w * (1.42857142725034663711e-01
+                             + w * (9.09088713343650656196e-02
+                                    + w * (6.66107313738753120669e-02
+                                           + w * (4.97687799461593236017e-02 + w * 1.62858201153657823623e-02)))));
+    double even = w * (-1.99999999998764832476e-01
+                       + w * (-1.11111104054623557880e-01
+                              + w * (-7.69187620504482999495e-02
+                                     + w * (-5.83357013379057348645e-02 + w * -3.65315727442169155270e-02))));
+    double part = t - t * (odd + even);
+    /* From the nearer axis on: turned by whole quarters, to and fro. */
+    double swapped = u < v ? 1.0 : 0.0, behind = x < 0 ? 1.0 : 0.0;
+    double sign = (1 - 2 * swapped) * (1 - 2 * behind), quarters = swapped + 2 * behind * (1 - swapped);
+    double base = quarters * 1.57079632679489655800e+00, rest = quarters * 6.12323399573676603587e-17 + sign * angle_rest;
+    double turned = base + sign * angle, lost = (base - turned) + sign * angle;
+    return copysign(turned + (rest + lost + sign * part), y);
 }
 
 #endif

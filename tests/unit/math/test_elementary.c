@@ -50,11 +50,33 @@ static void exponential_and_logarithm_are_within_a_unit(void **state)
     assert_true(elementary_ln(1) == 0 && elementary_exp(0) == 1);
 }
 
+static void arc_tangents_of_quotients_are_within_two_units(void **state)
+{
+    (void)state;
+    unsigned seed = 3;
+    double worst = 0;
+    for (int i = 0; i < 300000; i++) {
+        double y = random_number(&seed) * 2 - 1, x = random_number(&seed) * 2 - 1;
+        if (i % 4 == 0)
+            y *= exp(-30 * random_number(&seed));
+        if (i % 4 == 1)
+            x *= exp(-300 * random_number(&seed));
+        double off = units_apart(elementary_atan2(y, x), atan2l((long double)y, (long double)x));
+        worst = off > worst ? off : worst;
+    }
+    assert_true(worst < 2);
+    assert_true(elementary_atan2(0.0, 1) == 0 && signbit(elementary_atan2(-0.0, 1)));
+    assert_true(elementary_atan2(-0.0, -2) == -0x1.921fb54442d18p1 && elementary_atan2(3, 0) == 0x1.921fb54442d18p0);
+    assert_true(elementary_atan2_holds(0, 1) && !elementary_atan2_holds(0, 0) && !elementary_atan2_holds(NAN, NAN));
+    assert_false(elementary_atan2_holds(INFINITY, 1));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sine_and_cosine_are_within_a_unit),
         cmocka_unit_test(exponential_and_logarithm_are_within_a_unit),
+        cmocka_unit_test(arc_tangents_of_quotients_are_within_two_units),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
