@@ -2,47 +2,66 @@
  *
  * The rays to the samples of a light run side by side: what may stand in their way is looked up once, and mostly it is
  * little or nothing. */
+#include "base/simd.h"
 #include "trace/path.h"
 
-/* Axes of an oriented light: it always faces the point it lights. */
-static void orient(Vec3 l, double size, Vec3 *axis1, Vec3 *axis2)
+/* ---- where samples are ---- */
+
+static AreaAxes oriented(Vec3 l, double size)
 {
     Vec3 e = fabs(fabs(l.z) - 1) < 0.01 ? vec3(0, 1, 0) : vec3(0, 0, 1);
-    *axis1 = scaled(normalized(cross(l, e)), size);
-    *axis2 = scaled(normalized(cross(l, *axis1)), size);
+    Vec3 axis1 = scaled(normalized(cross(l, e)), size);
+    return (AreaAxes){ axis1, scaled(normalized(cross(l, axis1)), size) };
 }
 
-/* Displacement from the light's place. l: from the surface to the light's centre. */
-Vec3 area_sample_place(Tracer *t, const Light *light, Vec3 l, int u, int v)
+AreaAxes area_axes(const Light *light, Vec3 l)
+{
+    return light->def->orient ? oriented(l, length(light->axis1)) : (AreaAxes){ light->axis1, light->axis2 };
+}
+
+Vec3 area_sample_place(Tracer *t, const Light *light, const AreaAxes *axes, int u, int v)
 {
     const LightSource *def = light->def;
-    Vec3 axis1 = light->axis1, axis2 = light->axis2;
     double x = u, y = v;
     if (def->jitter) {
         x += streams_uniform(&t->chance) - 0.5;
         y += streams_uniform(&t->chance) - 0.5;
     }
-    if (def->orient)
-        orient(l, length(light->axis1), &axis1, &axis2);
     double middle = def->circular || def->orient ? 0.499 : 0.5;    /* POV: off by a little, so that it is never 0 */
     double s = def->size1 > 1 ? x / (def->size1 - 1) - middle : 0;
     double r = def->size2 > 1 ? y / (def->size2 - 1) - middle : 0;
     if (def->circular || def->orient) {
-        double distance = sqrt(s * s + r * r);
-        double g = distance > 0 ? fmax(fabs(s), fabs(r)) / distance : 0;
+        double distance = sqrt(s * s + r * r), a = fabs(s), b = fabs(r);
+        double g = distance > 0 ? (a > b ? a : b) / distance : 0;
         s *= g;
         r *= g;
     }
-    return add(scaled(axis1, s), scaled(axis2, r));
+    return add(scaled(axes->axis1, s), scaled(axes->axis2, r));
+}
+
+/* How many of the places first ... last along one axis are asked when all samples are the same: ends and middles down to
+ * `levels` halvings. */
+static uint32_t least_along(int first, int last, int levels)
+{
+    if (levels <= 0 || last - first <= 1)
+        return last > first ? 2 : 1;
+    int low = (first + last) / 2, high = (first + last + 1) / 2;
+    return least_along(first, low, levels - 1) + least_along(high, last, levels - 1) - (low == high);
+}
+
+uint32_t area_least_samples(const LightSource *def)
+{
+    return least_along(0, def->size1 - 1, def->adaptive) * least_along(0, def->size2 - 1, def->adaptive);
 }
 
 typedef struct Area {
     const Spot *spot;
-    uint32_t light;
+    const Light *light;
+    uint32_t index;                            /* of the light */
     Vec3 l;
+    AreaAxes axes;
     Rgb colour;
     const Shaft *among;                        /* what may hide samples; NULL: not known */
-    bool clear;                                /* all samples reach the surface as they are */
 } Area;
 
 /* ---- what lies between ---- */
@@ -54,32 +73,31 @@ static double reach_of(const LightSource *def, int size)
     return size > 1 && def->jitter ? reach + 0.5 / (size - 1) : reach;
 }
 
-static Bounds bounds_of_samples(const Light *light, double margin)
+static Bounds bounds_of_samples(const Area *a, double margin)
 {
-    double r1 = reach_of(light->def, light->def->size1), r2 = reach_of(light->def, light->def->size2);
-    Vec3 a = scaled(light->axis1, r1), b = scaled(light->axis2, r2);
-    Vec3 half = vec3(fabs(a.x) + fabs(b.x), fabs(a.y) + fabs(b.y), fabs(a.z) + fabs(b.z));
-    if (light->def->orient) {                  /* it turns, with the length of its first axis for both */
-        double most = length(light->axis1) * (r1 + r2);
-        half = vec3(most, most, most);
-    }
-    half = add(half, vec3(margin, margin, margin));
-    return (Bounds){ sub(light->location, half), add(light->location, half) };
+    const LightSource *def = a->light->def;
+    double r1 = reach_of(def, def->size1), r2 = reach_of(def, def->size2);
+    Vec3 u = scaled(a->axes.axis1, r1), v = scaled(a->axes.axis2, r2);
+    Vec3 half = vec3(fabs(u.x) + fabs(v.x) + margin, fabs(u.y) + fabs(v.y) + margin, fabs(u.z) + fabs(v.z) + margin);
+    return (Bounds){ sub(a->light->location, half), add(a->light->location, half) };
 }
+
+/* The least slope of the rays to the samples over the surface for their start not to be in doubt. */
+static const double CLEARLY_ABOVE = 0x1p-20;
 
 /* Fails if the rays to the samples do not all start on the same side of the surface, or do not lead to them. */
 static bool look_between(const Area *a, Shaft *out)
 {
     const Spot *spot = a->spot;
-    const Light *light = &spot->t->world->light[a->light];
+    const Light *light = a->light;
     if (light->def->parallel || light->def->kind == LIGHT_CYLINDER || light->projected_through != 0)
         return false;
     const Surface *surface = spot->surface;
-    Bounds to = bounds_of_samples(light, 8 * (surface != NULL ? surface->error : 0));
+    Bounds to = bounds_of_samples(a, 8 * (surface != NULL ? surface->error : 0));
     if (surface != NULL) {
-        Vec3 g = surface->geometric, half = sub(to.hi, light->location);
-        double across = dot(g, sub(light->location, spot->p));
-        if (fabs(across) <= fabs(g.x) * half.x + fabs(g.y) * half.y + fabs(g.z) * half.z)
+        Vec3 g = surface->geometric, half = sub(to.hi, light->location), v = sub(light->location, spot->p);
+        double doubt = fabs(g.x) * half.x + fabs(g.y) * half.y + fabs(g.z) * half.z + CLEARLY_ABOVE * max_abs(v);
+        if (fabs(dot(g, v)) <= doubt)
             return false;
     }
     world_shaft(spot->t->world, surface != NULL ? surface_offset(surface, a->l) : spot->p, to, PRIM_NO_SHADOW, out);
@@ -89,62 +107,79 @@ static bool look_between(const Area *a, Shaft *out)
 /* ---- samples ---- */
 
 /* POV: a sample counts as known by its red not being negative. */
-static Rgb area_sample(const Area *a, int u, int v)
+static f4 area_sample(const Area *a, int u, int v)
 {
     Tracer *t = a->spot->t;
-    const Light *light = &t->world->light[a->light];
-    AreaSample *known = &t->area[u * light->def->size2 + v];
-    if (known->stamp == t->area_stamp && known->colour.r >= 0)
-        return known->colour;
-    Vec3 from = add(light->location, area_sample_place(t, light, a->l, u, v));
-    known->colour = a->colour;
-    if (!a->clear) {
-        Beam beam;
-        light_beam(light, from, a->spot->p, a->colour, &beam);
-        known->colour = shadow_walk(a->spot, a->light, &beam, a->colour, a->among);
-    }
+    AreaSample *known = &t->area[u * a->light->def->size2 + v];
+    if (known->stamp == t->area_stamp && known->colour[0] >= 0)
+        return f4_load(known->colour);
+    Vec3 from = add(a->light->location, area_sample_place(t, a->light, &a->axes, u, v));
+    Beam beam;
+    light_towards(a->light, from, a->spot->p, &beam);
+    Rgb c = shadow_walk(a->spot, a->index, &beam, a->colour, a->among);
     known->stamp = t->area_stamp;
-    return known->colour;
+    known->colour[0] = c.r;
+    known->colour[1] = c.g;
+    known->colour[2] = c.b;
+    return f4_load(known->colour);
 }
 
-static float apart(Rgb a, Rgb b)
+static float apart(f4 a, f4 b)
 {
-    return fabsf(a.r - b.r) + fabsf(a.g - b.g) + fabsf(a.b - b.b);
+    float d[4];
+    f4_store(d, f4_sub(a, b));
+    return fabsf(d[0]) + fabsf(d[1]) + fabsf(d[2]);
 }
 
-static bool corners_differ(const Rgb c[4])
+static bool corners_differ(f4 c0, f4 c1, f4 c2, f4 c3)
 {
-    return apart(c[0], c[1]) > 0.1f || apart(c[1], c[3]) > 0.1f || apart(c[3], c[2]) > 0.1f || apart(c[2], c[0]) > 0.1f;
+    if (f4_same(c0, c1) && f4_same(c1, c2) && f4_same(c2, c3))
+        return false;
+    return apart(c0, c1) > 0.1f || apart(c1, c3) > 0.1f || apart(c3, c2) > 0.1f || apart(c2, c0) > 0.1f;
 }
 
-static Rgb area_mean(const Area *a, int u1, int v1, int u2, int v2, int level)
+static f4 area_mean(const Area *a, int u1, int v1, int u2, int v2, int level)
 {
-    Rgb c[4] = { area_sample(a, u1, v1) };
-    c[1] = area_sample(a, u2, v1);
-    c[2] = area_sample(a, u1, v2);
-    c[3] = area_sample(a, u2, v2);
-    if ((u2 - u1 > 1 || v2 - v1 > 1) &&
-        (level < a->spot->t->world->light[a->light].def->adaptive || corners_differ(c))) {
+    f4 c0 = area_sample(a, u1, v1), c1 = area_sample(a, u2, v1), c2 = area_sample(a, u1, v2), c3 = area_sample(a, u2, v2);
+    if ((u2 - u1 > 1 || v2 - v1 > 1) && (level < a->light->def->adaptive || corners_differ(c0, c1, c2, c3))) {
         int ul = (u1 + u2) / 2, uh = (u1 + u2 + 1) / 2, vl = (v1 + v2) / 2, vh = (v1 + v2 + 1) / 2;
-        c[0] = area_mean(a, u1, v1, ul, vl, level + 1);
-        c[1] = area_mean(a, uh, v1, u2, vl, level + 1);
-        c[2] = area_mean(a, u1, vh, ul, v2, level + 1);
-        c[3] = area_mean(a, uh, vh, u2, v2, level + 1);
+        c0 = area_mean(a, u1, v1, ul, vl, level + 1);
+        c1 = area_mean(a, uh, v1, u2, vl, level + 1);
+        c2 = area_mean(a, u1, vh, ul, v2, level + 1);
+        c3 = area_mean(a, uh, vh, u2, v2, level + 1);
     }
-    return rgb_scaled(rgb_add(rgb_add(c[0], c[1]), rgb_add(c[2], c[3])), 0.25f);
+    return f4_mul(f4_add(f4_add(c0, c1), f4_add(c2, c3)), f4_set(0.25f));
+}
+
+static Rgb mean_of_all(const Area *a)
+{
+    const LightSource *def = a->light->def;
+    float c[4];
+    a->spot->t->area_stamp++;
+    f4_store(c, area_mean(a, 0, 0, def->size1 - 1, def->size2 - 1, 0));
+    return rgb(c[0], c[1], c[2]);
+}
+
+/* All samples are the same, and so is their mean, exactly. They would have drawn from the stream, though. */
+static Rgb mean_of_equals(const Area *a, Rgb colour)
+{
+    Tracer *t = a->spot->t;
+    if (a->light->def->jitter)
+        streams_skip(&t->chance, 2 * t->tracing->area_least[a->index]);
+    return colour;
 }
 
 Rgb area_visible(const Spot *spot, uint32_t light, Rgb colour)
 {
     const Light *source = &spot->t->world->light[light];
-    spot->t->area_stamp++;
-    Area a = { .spot = spot, .light = light, .l = normalized(sub(source->location, spot->p)), .colour = colour };
+    Area a = { .spot = spot, .light = source, .index = light, .colour = colour };
+    a.l = normalized(sub(source->location, spot->p));
+    a.axes = area_axes(source, a.l);
     Shaft among;
     if (look_between(&a, &among)) {
         a.among = &among;
-        a.clear = among.n == 0 && !shadow_dims(spot->t);
-        if (a.clear && !source->def->jitter)
-            return colour;                     /* the mean of equals, exactly */
+        if (among.n == 0 && !shadow_dims(spot->t, source) && colour.r >= 0)
+            return mean_of_equals(&a, colour);
     }
-    return area_mean(&a, 0, 0, source->def->size1 - 1, source->def->size2 - 1, 0);
+    return mean_of_all(&a);
 }

@@ -60,7 +60,7 @@ static bool is_dark(Rgb c)
     return rgb_max_abs(c) < (float)TINY;
 }
 
-bool light_beam(const Light *light, Vec3 from, Vec3 p, Rgb colour, Beam *out)
+void light_towards(const Light *light, Vec3 from, Vec3 p, Beam *out)
 {
     const LightSource *def = light->def;
     Vec3 v = sub(from, p);
@@ -76,6 +76,11 @@ bool light_beam(const Light *light, Vec3 from, Vec3 p, Rgb colour, Beam *out)
         out->d *= dot(l, out->l);
         out->l = l;
     }
+}
+
+bool light_beam(const Light *light, Vec3 from, Vec3 p, Rgb colour, Beam *out)
+{
+    light_towards(light, from, p, out);
     out->colour = rgb_scaled(colour, (float)light_share(light, p, out->l, out->d));
     return !is_dark(out->colour);
 }
@@ -192,11 +197,12 @@ static Rgb illuminate_by_area(Shade *s, const Layer *layer, const Light *light, 
     Rgb sum = rgb_grey(0);
     int n1 = light->def->size1, n2 = light->def->size2;
     Rgb share = rgb_scaled(visible, 1 / (float)(n1 * n2));
+    AreaAxes axes = area_axes(light, centre->l);
     for (int v = 0; v < n2; v++)
         for (int u = 0; u < n1; u++) {
             Beam beam;
             bool lit;
-            Vec3 from = add(light->location, area_sample_place(s->t, light, centre->l, u, v));
+            Vec3 from = add(light->location, area_sample_place(s->t, light, &axes, u, v));
             if (!light_beam(light, from, s->surface->p, share, &beam))
                 continue;
             bool behind = stands_behind(s, layer, beam.l, &lit);

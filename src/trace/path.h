@@ -49,6 +49,7 @@ struct Tracing {
     Bow *bow;                   uint32_t n_bows;
     double *stream;                            /* stream A, if anything draws from it */
     uint32_t n_area_samples;                   /* of the largest area light */
+    uint32_t *area_least;                      /* per light: how many of its samples are asked at the least */
     float hue[3][HUES];                        /* cumulative, red, green, blue */
 };
 
@@ -56,7 +57,7 @@ struct Tracing {
 typedef struct LightSpan { double from, to; uint32_t light; } LightSpan;
 typedef struct MediaSpan { double from, to; bool lit; } MediaSpan;
 
-typedef struct AreaSample { Rgb colour; uint32_t stamp; } AreaSample;
+typedef struct AreaSample { float colour[4]; uint32_t stamp; } AreaSample;     /* colour[3] stays 0 */
 
 struct Tracer {
     const Tracing *tracing;
@@ -144,8 +145,9 @@ Colour shade_reflect(const Shade *s, const Polish *polish, double weight);     /
 bool shade_transmit(const Shade *s, const Polish *top, Rgb filter, bool filtered, double through, Colour *sum);
 
 /* light.c */
-/* from: the light's place, or a sample of its area. False: no light. */
-bool light_beam(const Light *light, Vec3 from, Vec3 p, Rgb colour, Beam *out);
+/* from: the light's place, or a sample of its area. */
+void light_towards(const Light *light, Vec3 from, Vec3 p, Beam *out);      /* all but the colour */
+bool light_beam(const Light *light, Vec3 from, Vec3 p, Rgb colour, Beam *out);      /* false: no light */
 Rgb shade_lights(Shade *s, const Layer *layer);
 
 /* What of beam->colour gets through to the spot, from all of the light's area if it has one. */
@@ -153,11 +155,16 @@ Rgb light_shadowed(const Spot *spot, uint32_t light, const Beam *beam);
 
 /* shadow.c: `colour` as it passes from the light at distance beam->d to the spot. */
 Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour, const Shaft *among);  /* NULL: all prims */
-bool shadow_dims(const Tracer *t);             /* may light grow weaker where it meets no surface? */
+bool shadow_dims(const Tracer *t, const Light *light);     /* may it grow weaker where it meets no surface? */
 
 /* area.c */
 Rgb area_visible(const Spot *spot, uint32_t light, Rgb colour);          /* mean over the samples */
-Vec3 area_sample_place(Tracer *t, const Light *light, Vec3 l, int u, int v);
+
+typedef struct AreaAxes { Vec3 axis1, axis2; } AreaAxes;
+AreaAxes area_axes(const Light *light, Vec3 l);        /* l: from the surface to the light's centre, which oriented lights face */
+/* Displacement from the light's place. */
+Vec3 area_sample_place(Tracer *t, const Light *light, const AreaAxes *axes, int u, int v);
+uint32_t area_least_samples(const LightSource *def);
 
 /* interior.c */
 static inline void interiors_copy(Interiors *to, const Interiors *from)        /* not the unused part */

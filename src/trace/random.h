@@ -36,6 +36,11 @@ static inline double streams_uniform(Streams *s)       /* [0, 1) */
     return s->table[s->at];
 }
 
+static inline void streams_skip(Streams *s, uint32_t n)       /* as n of the above */
+{
+    s->at = (s->at + n) % STREAM_SIZE;
+}
+
 static inline double streams_media(Streams *s)         /* [0, 1) */
 {
     s->media_at = (s->media_at + 1) % STREAM_SIZE;

@@ -83,15 +83,18 @@ const double *tracing_media_threshold(const Tracing *tracing, const Media *media
     return NULL;
 }
 
-static uint32_t largest_area(const World *w)
+static void prepare_areas(Arena *arena, Tracing *tracing, const World *w)
 {
-    uint32_t most = 1;
+    tracing->n_area_samples = 1;
+    tracing->area_least = arena_array(arena, uint32_t, w->n_lights + 1);
     for (uint32_t i = 0; i < w->n_lights; i++) {
         const LightSource *def = w->light[i].def;
-        if (def->area && (uint32_t)def->size1 * (uint32_t)def->size2 > most)
-            most = (uint32_t)def->size1 * (uint32_t)def->size2;
+        if (!def->area)
+            continue;
+        uint32_t n = (uint32_t)def->size1 * (uint32_t)def->size2;
+        tracing->n_area_samples = n > tracing->n_area_samples ? n : tracing->n_area_samples;
+        tracing->area_least[i] = area_least_samples(def);
     }
-    return most;
 }
 
 static bool has_media(const World *w)
@@ -156,7 +159,7 @@ const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha
     tracing->max_level = w->globals.max_trace_level < 1 ? 1 : w->globals.max_trace_level;
     tracing->ticket = (Ticket){ .adc_bailout = w->globals.adc_bailout, .max_level = tracing->max_level };
     tracing->radiosity = w->globals.radiosity.on && quality >= 9;
-    tracing->n_area_samples = largest_area(w);
+    prepare_areas(arena, tracing, w);
     tracing->has_media = quality >= 9 && has_media(w);
     prepare_air(arena, tracing, w->scene);
     prepare_media(arena, tracing, w);

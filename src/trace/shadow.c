@@ -197,9 +197,10 @@ static Rgb walk_veils(Walk *walk, uint32_t light, const Shaft *among)
     return walk->colour;
 }
 
-bool shadow_dims(const Tracer *t)
+bool shadow_dims(const Tracer *t, const Light *light)
 {
-    return t->tracing->quality >= 9 && t->tracing->n_fog + t->world->scene->n_media > 0;
+    return t->tracing->quality >= 9 && t->tracing->n_fog + t->world->scene->n_media > 0 && light->def->media_attenuation &&
+           light->def->media_interaction;
 }
 
 Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour, const Shaft *among)
@@ -225,6 +226,6 @@ Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour, 
     if (among == NULL && still_hidden(t, light, &walk.ray))
         return rgb_grey(0);
     interiors_copy(&walk.in, spot->in);
-    walk.in_air = shadow_dims(t) && source->def->media_attenuation && source->def->media_interaction;
+    walk.in_air = shadow_dims(t, source);
     return walk_veils(&walk, light, among);
 }
