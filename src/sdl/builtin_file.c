@@ -326,7 +326,7 @@ static void write_text(FILE *out, Str s)
     for (uint32_t i = 0; i < s.n; i++)
         all |= (unsigned char)s.data[i];
     if (all < 0x80) {
-        fwrite(s.data, 1, s.n, out);
+        fwrite_unlocked(s.data, 1, s.n, out);
         return;
     }
     for (uint32_t i = 0; i < s.n; i++)
@@ -364,13 +364,32 @@ static void write_item(Parser *p, FILE *out)
     fputs("> ", out);
 }
 
+/* An item of a loop's or macro's that needs no look-ahead; false if it is another. Meshes are written by the hundred thousand. */
+static bool write_plain_item(Parser *p, FILE *out)
+{
+    const Token *t = fast_text_item(p);
+    double v[3];
+    char text[NUMBER_TEXT];
+    if (t != NULL)
+        write_text(out, string_decode(p, (Str){ t->text, t->n }, t->loc, false));
+    else if (fast_str_item(p, v))
+        fwrite_unlocked(text, 1, string_of_number(text, v[0], (int)v[1], (int)v[2]), out);
+    else
+        return false;
+    return true;
+}
+
 void file_write_directive(Parser *p)
 {
     FileHandle *h = handle(p)->file;
     if (h->reading)
         fail(p->diag, cursor_loc(p), "Cannot write to file %.*s because the file is open for reading only.", STR_ARGS(h->name));
     parse_accept(p, TOK_COMMA);
-    while (!parse_accept(p, TOK_RPAREN)) {
+    for (;;) {
+        while (write_plain_item(p, h->out))
+            ;
+        if (parse_accept(p, TOK_RPAREN))
+            break;
         write_item(p, h->out);
         parse_accept(p, TOK_COMMA);
     }

@@ -98,9 +98,19 @@ static unsigned high_byte(Parser *p, Str s, uint32_t *i, Loc loc)
     return ' ';
 }
 
+static bool is_plain(Str s)
+{
+    for (uint32_t i = 0; i < s.n; i++)
+        if (s.data[i] == '\\' || (s.data[i] & 0x80))
+            return false;
+    return true;
+}
+
 /* File names are bytes: neither escapes nor charsets apply, but \" . */
 Str string_decode(Parser *p, Str written, Loc loc, bool file_name)
 {
+    if (is_plain(written))
+        return written;
     char *data = arena_alloc(&p->temp, (size_t)written.n * 3 + 1), *out = data;
     for (uint32_t i = 0; i < written.n;) {
         char c = written.data[i];
@@ -166,23 +176,27 @@ static void text_add(Parser *p, Text *t, const char *data, size_t n)
 }
 
 /* Precision below 0 is printf's own; a text that would not fit into 255 bytes is written with %g. */
-static void format_number(Parser *p, Text *t, double v, int width, int precision)
+size_t string_of_number(char text[NUMBER_TEXT], double v, int width, int precision)
 {
-    char text[512], format[32];
+    char format[32];
     int w = width < 0 ? -width : width;
     w = w > 250 || w < 0 ? 250 : w;
     size_t quick = w <= 1 ? number_fixed(v, precision, text) : 0;
-    if (quick > 0) {
-        text_add(p, t, text, quick);
-        return;
-    }
+    if (quick > 0)
+        return quick;
     snprintf(format, sizeof format, width < 0 ? "%%0*.*%s" : "%%*.*%s", "f");
-    int n = snprintf(text, sizeof text, format, w, precision > 250 ? 250 : precision, v);
+    int n = snprintf(text, NUMBER_TEXT, format, w, precision > 250 ? 250 : precision, v);
     if (n >= 255) {
         snprintf(format, sizeof format, width < 0 ? "%%0*.*%s" : "%%*.*%s", "g");
-        n = snprintf(text, sizeof text, format, w, precision > 200 ? 200 : precision, v);
+        n = snprintf(text, NUMBER_TEXT, format, w, precision > 200 ? 200 : precision, v);
     }
-    text_add(p, t, text, n < (int)sizeof text ? (size_t)n : sizeof text - 1);
+    return n < NUMBER_TEXT ? (size_t)n : NUMBER_TEXT - 1;
+}
+
+static void format_number(Parser *p, Text *t, double v, int width, int precision)
+{
+    char text[NUMBER_TEXT];
+    text_add(p, t, text, string_of_number(text, v, width, precision));
 }
 
 static int int_argument(Parser *p)

@@ -474,6 +474,38 @@ bool fast_condition(Parser *p, bool *out)
     return true;
 }
 
+/* Is an item of #write over here, with nothing that might go on with it? The comma behind it is taken. */
+static bool end_item(Fast *f)
+{
+    return take(f, TOK_COMMA) || next_kind(f) == TOK_RPAREN;
+}
+
+const Token *fast_text_item(Parser *p)
+{
+    Fast f;
+    if (!start(p, &f) || !take(&f, TOK_STRING) || !end_item(&f))
+        return NULL;
+    const Token *text = &p->reader[p->n_readers - 1].tokens[p->reader[p->n_readers - 1].at];
+    finish(p, &f);
+    return text;
+}
+
+bool fast_str_item(Parser *p, double argument[3])
+{
+    Fast f;
+    if (!start(p, &f) || !take(&f, KW_STR) || !take(&f, TOK_LPAREN))
+        return false;
+    for (int i = 0; i < 3; i++) {
+        argument[i] = float_sum(&f);
+        expect(&f, i < 2 ? TOK_COMMA : TOK_RPAREN);
+    }
+    bool fit = fabs(argument[1]) < 1000 && fabs(argument[2]) < 1000;
+    if (f.failed || !fit || !end_item(&f))
+        return abandon(&f);
+    finish(p, &f);
+    return true;
+}
+
 /* [subscripts] = sum ; into an item that may hold numbers like this one. */
 static bool declare_item(Parser *p, Fast *f, Value *array)
 {

@@ -228,6 +228,9 @@ static inline double random_next(uint32_t *state)         /* 01-language, sectio
 bool fast_sum(Parser *p, Num *out);
 bool fast_condition(Parser *p, bool *out);
 bool fast_declare(Parser *p, bool local);
+/* An item of #write and the comma behind it: a literal string, or str() and its arguments, |width| and |precision| below 1000. */
+const Token *fast_text_item(Parser *p);        /* NULL if it is none */
+bool fast_str_item(Parser *p, double argument[3]);
 
 /* builtin_math.c, builtin_text.c: false if the keyword in the look-ahead is not theirs. */
 bool builtin_number(Parser *p, int keyword, Num *out);
@@ -239,6 +242,8 @@ bool math_of_vectors(int keyword, Vec3 a, Vec3 b, double angle, Num *out);
 Vec3 math_trace(Parser *p, const Object *o, Vec3 from, Vec3 direction, Vec3 *normal);   /* the point; both 0 if nothing is met */
 bool kind_starts_string(const Parser *p);
 Str string_expression(Parser *p, bool file_name);          /* in temp memory; fails if no string comes */
+enum { NUMBER_TEXT = 512 };
+size_t string_of_number(char text[NUMBER_TEXT], double v, int width, int precision);      /* as str() does */
 int string_compare(Str a, Str b);              /* by character: the difference, as strcmp() of the language */
 Str string_decode(Parser *p, Str written, Loc loc, bool file_name);
 
