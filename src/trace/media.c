@@ -473,7 +473,7 @@ Colour media_bodies(Tracer *t, const Path *path, const Material *lit_for, double
 {
     if (path->ticket->bounces > 0 && !t->world->globals.radiosity.media)
         return c;
-    if (!t->tracing->has_media || path->in->n == 0 || !interiors_hollow(t->world, path->in))
+    if (path->in->n == 0 || !interiors_hollow(t->world, path->in))
         return c;
     Stretch s;
     stretch_start(&s, t, path->o, path->d, depth, path->in);

@@ -44,6 +44,8 @@ struct Tracing {
     bool radiosity;
     int max_level;
     bool has_media;                            /* in some body */
+    bool has_air;                              /* fog, rainbows or media lie in front of what is seen */
+    bool air_dims;                             /* fog or media weaken light where it meets no surface */
     MediaLimit *media_limit;    uint32_t n_media_limits;       /* of media that sample adaptively */
     const FogDef *const *fog;   uint32_t n_fog;        /* those that are on */
     Bow *bow;                   uint32_t n_bows;

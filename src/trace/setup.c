@@ -162,6 +162,8 @@ const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha
     prepare_areas(arena, tracing, w);
     tracing->has_media = quality >= 9 && has_media(w);
     prepare_air(arena, tracing, w->scene);
+    tracing->air_dims = quality >= 9 && tracing->n_fog + w->scene->n_media > 0;
+    tracing->has_air = quality >= 9 && tracing->n_fog + tracing->n_bows + w->scene->n_media > 0;
     prepare_media(arena, tracing, w);
     if (wants_stream(w, tracing)) {
         tracing->stream = arena_array(arena, double, STREAM_SIZE);

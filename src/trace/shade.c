@@ -236,5 +236,5 @@ Colour shade_hit(Tracer *t, const Path *path, const Hit *hit, int level)
         shade_texture(&s, texture, 1);
     for (uint32_t i = 0; i < surface.n_textures; i++)
         shade_texture(&s, surface.texture[i].texture != 0 ? surface.texture[i].texture : texture, surface.texture[i].weight);
-    return media_bodies(t, path, m, hit->t, s.sum);
+    return t->tracing->has_media ? media_bodies(t, path, m, hit->t, s.sum) : s.sum;
 }

@@ -168,49 +168,53 @@ static bool still_hidden(Tracer *t, uint32_t light, const Ray *ray)
     return false;
 }
 
-static Rgb walk_veils(Walk *walk, uint32_t light, const Shaft *among)
+/* Fills `veils` with the next ones that the walk meets; false: something opaque stands in the way. */
+static bool find_veils(Walk *walk, Veils *veils, uint32_t light, const Shaft *among)
 {
-    Tracer *t = walk->t;
-    Veils veils;                               /* not cleared: its hits are many */
-    veils.world = t->world;
-    do {
-        veils.n = 0;
-        veils.overflowed = false;
-        if (among != NULL ? shaft_each_hit(t->world, among, &walk->ray, keep_veil, &veils)
-                          : world_each_hit(t->world, &walk->ray, PRIM_NO_SHADOW, keep_veil, &veils)) {
-            t->last_blocker[light] = veils.blocker + 1;
-            return rgb_grey(0);
-        }
-        if (veils.n > 1)
-            qsort(veils.hit, veils.n, sizeof veils.hit[0], hit_order);
-        for (uint32_t i = 0; i < veils.n; i++) {
-            if (veils.hit[i].t <= walk->clear)
+    const World *w = walk->t->world;
+    veils->world = w;
+    veils->n = 0;
+    veils->overflowed = false;
+    bool hidden = among != NULL ? shaft_each_hit(w, among, &walk->ray, keep_veil, veils)
+                                : world_each_hit(w, &walk->ray, PRIM_NO_SHADOW, keep_veil, veils);
+    if (hidden)
+        walk->t->last_blocker[light] = veils->blocker + 1;
+    return !hidden;
+}
+
+/* Passes the surfaces found, and goes on. */
+static Rgb pass_veils(Walk *walk, Veils *veils, uint32_t light, const Shaft *among)
+{
+    for (;;) {
+        if (veils->n > 1)
+            qsort(veils->hit, veils->n, sizeof veils->hit[0], hit_order);
+        for (uint32_t i = 0; i < veils->n; i++) {
+            if (veils->hit[i].t <= walk->clear)
                 continue;                      /* seen as one surface, as rays that go on from it see it */
-            pass_surface(walk, &veils.hit[i]);
+            pass_surface(walk, &veils->hit[i]);
             if (rgb_is_zero(walk->colour))
                 return walk->colour;
         }
-        if (veils.overflowed)
-            walk->ray.t_min = veils.hit[veils.n - 1].t;
-    } while (veils.overflowed);
+        if (!veils->overflowed)
+            break;
+        walk->ray.t_min = veils->hit[veils->n - 1].t;
+        if (!find_veils(walk, veils, light, among))
+            return rgb_grey(0);
+    }
     dim_by_air(walk, walk->ray.t_max);
     return walk->colour;
 }
 
 bool shadow_dims(const Tracer *t, const Light *light)
 {
-    return t->tracing->quality >= 9 && t->tracing->n_fog + t->world->scene->n_media > 0 && light->def->media_attenuation &&
-           light->def->media_interaction;
+    return t->tracing->air_dims && light->def->media_attenuation && light->def->media_interaction;
 }
 
 Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour, const Shaft *among)
 {
     Tracer *t = spot->t;
     const Light *source = &t->world->light[light];
-    Walk walk;
-    walk.t = t;
-    walk.colour = colour;
-    walk.done = walk.clear = 0;
+    Walk walk;                                 /* the rest is written when there is something to pass */
     if (spot->surface != NULL)
         walk.ray = (Ray){ surface_offset(spot->surface, beam->l), beam->l, 0, beam->d * LIGHT_END };
     else
@@ -225,7 +229,15 @@ Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour, 
     }
     if (among == NULL && still_hidden(t, light, &walk.ray))
         return rgb_grey(0);
-    interiors_copy(&walk.in, spot->in);
+    Veils veils;                               /* not cleared: its hits are many */
+    walk.t = t;
+    if (!find_veils(&walk, &veils, light, among))
+        return rgb_grey(0);
     walk.in_air = shadow_dims(t, source);
-    return walk_veils(&walk, light, among);
+    if (veils.n == 0 && !walk.in_air)
+        return colour;
+    walk.colour = colour;
+    walk.done = walk.clear = 0;
+    interiors_copy(&walk.in, spot->in);
+    return pass_veils(&walk, &veils, light, among);
 }

@@ -10,7 +10,7 @@ static Colour through_air(Tracer *t, const Path *path, double depth, Colour c)
     uint32_t n_media = t->world->scene->n_media;
     if (path->ticket->bounces > 0 && !t->world->globals.radiosity.media)
         return c;
-    if (tracing->quality < 9 || tracing->n_fog + tracing->n_bows + n_media == 0 || !interiors_hollow(t->world, path->in))
+    if (!interiors_hollow(t->world, path->in))
         return c;
     if (tracing->n_bows > 0)
         c = rainbow_apply(t, path->d, depth, c);
@@ -41,7 +41,7 @@ Colour trace_path(Tracer *t, const Path *path)
     }
     t->nesting--;
     t->depth = depth;
-    return through_air(t, path, depth, c);
+    return tracing->has_air ? through_air(t, path, depth, c) : c;
 }
 
 void tracer_interiors(const Tracer *t, Vec3 p, Interiors *out)
