@@ -57,7 +57,21 @@ static double light_share(const Light *light, Vec3 p, Vec3 l, double d)
 
 static bool is_dark(Rgb c)
 {
-    return rgb_max_abs(c) < (float)TINY;
+    return fabsf(c.r) < (float)TINY && fabsf(c.g) < (float)TINY && fabsf(c.b) < (float)TINY;
+}
+
+/* Along the straight line to a place of the light. */
+static inline void aim(Beam *out, const Light *light, Vec3 v)
+{
+    out->d = length(v);
+    out->l = out->d > 0 ? scaled(v, 1 / out->d) : light->axis;
+}
+
+bool light_is_plain(const Light *light)
+{
+    const LightSource *def = light->def;
+    bool fades = def->fade_power > 0 && light->fade_distance != 0;
+    return def->kind == LIGHT_POINT && !def->parallel && !fades && !is_dark(light->colour);
 }
 
 void light_towards(const Light *light, Vec3 from, Vec3 p, Beam *out)
@@ -68,8 +82,7 @@ void light_towards(const Light *light, Vec3 from, Vec3 p, Beam *out)
         out->l = normalized(sub(from, light->point_at));
         out->d = dot(v, out->l);
     } else {
-        out->d = length(v);
-        out->l = out->d > 0 ? scaled(v, 1 / out->d) : light->axis;
+        aim(out, light, v);
     }
     if (def->parallel || def->kind == LIGHT_CYLINDER) {
         Vec3 l = def->area ? normalized(sub(from, light->point_at)) : negated(light->axis);
@@ -96,22 +109,49 @@ static Rgb metallic_tint(float metallic, Rgb colour, double cosine)
     return rgb_add(rgb_grey(1), rgb_scaled(rgb_sub(colour, rgb_grey(1)), metallic * (1 - f)));
 }
 
-static double phong(const Finish *f, Vec3 d, Vec3 n, Vec3 l)
+/* What is the same for all lights of a layer. */
+typedef struct Gloss {
+    bool any;
+    Vec3 mirrored;                             /* the ray; if there is phong */
+    double sharpness;                          /* if there is specular */
+} Gloss;
+
+typedef struct Lit {                           /* a layer under all lights */
+    Shade *s;
+    const Layer *layer;
+    Gloss gloss;
+} Lit;
+
+static inline Gloss gloss_of(const Shade *s, const Layer *layer)
 {
-    double k = dot(sub(d, scaled(n, 2 * dot(d, n))), l);
+    const Finish *f = layer->finish;
+    Gloss g;
+    g.any = (f->phong > 0 || f->specular > 0) && s->path->ticket->bounces == 0;
+    if (!g.any)
+        return g;
+    if (f->phong > 0)
+        g.mirrored = sub(s->path->ray.d, scaled(layer->n, 2 * dot(s->path->ray.d, layer->n)));
+    if (f->specular > 0)
+        g.sharpness = f->roughness != 0 ? 1 / (double)f->roughness : 0;
+    return g;
+}
+
+static double phong(const Finish *f, const Gloss *gloss, Vec3 l)
+{
+    double k = dot(gloss->mirrored, l);
     if (k <= 0 || !(f->phong_size < 60 || k > 0.0008))
         return 0;
     return (double)f->phong * pow(k, (double)f->phong_size);
 }
 
-static double specular(const Finish *f, Vec3 d, Vec3 n, Vec3 l)
+static double specular(const Finish *f, const Gloss *gloss, Vec3 d, Vec3 n, Vec3 l)
 {
     Vec3 half = scaled(sub(l, d), 0.5);
-    double size = length(half);
-    double k = size > 0 ? dot(half, n) / size : 0;
+    double k = dot(half, n);
     if (k <= 0)
         return 0;
-    return (double)f->specular * pow(k, f->roughness != 0 ? 1 / (double)f->roughness : 0);
+    double size = length(half);
+    return size > 0 ? (double)f->specular * pow(k / size, gloss->sharpness) : 0;
 }
 
 static double diffuse_strength(const Layer *layer, bool behind)
@@ -119,128 +159,144 @@ static double diffuse_strength(const Layer *layer, bool behind)
     return layer->finish->has_subsurface ? 0 : (double)(behind ? layer->finish->diffuse_back : layer->finish->diffuse);
 }
 
-/* The factor on light from l; `grain` is taken off the brightness. */
-static Rgb answer(const Shade *s, const Layer *layer, const Light *light, Vec3 l, bool behind, double grain)
+static Rgb highlight(const Lit *lit, Vec3 l, Rgb sum)
 {
+    const Layer *layer = lit->layer;
     const Finish *f = layer->finish;
-    double cosine = dot(layer->n, l);
+    double shine = (f->phong > 0 ? phong(f, &lit->gloss, l) : 0) +
+                   (f->specular > 0 ? specular(f, &lit->gloss, lit->s->path->ray.d, layer->n, l) : 0);
+    return shine > 0 ? rgb_add(sum, rgb_scaled(metallic_tint(f->metallic, layer->colour, dot(layer->n, l)), (float)shine)) : sum;
+}
+
+/* The factor on light from l; `grain` is taken off the brightness. */
+static inline Rgb answer(const Lit *lit, unsigned lamp, Vec3 l, bool behind, double grain)
+{
+    const Layer *layer = lit->layer;
+    const Finish *f = layer->finish;
     Rgb sum = rgb_grey(0);
     double k = diffuse_strength(layer, behind);
     if (k > 0) {                               /* opacity may be negative: a colour with filter + transmit above 1 */
-        double intensity = f->brilliance == 1 ? fabs(cosine) : pow(fabs(cosine), (double)f->brilliance);
+        double cosine = fabs(dot(layer->n, l));
+        double intensity = f->brilliance == 1 ? cosine : pow(cosine, (double)f->brilliance);
         sum = rgb_scaled(layer->colour, (float)(intensity * k * layer->opacity - grain));
     }
-    if (!light->def->shadowless && !behind && s->path->ticket->bounces == 0 && (f->phong > 0 || f->specular > 0)) {
-        double shine = (f->phong > 0 ? phong(f, s->path->d, layer->n, l) : 0) +
-                       (f->specular > 0 ? specular(f, s->path->d, layer->n, l) : 0);
-        if (shine > 0)
-            sum = rgb_add(sum, rgb_scaled(metallic_tint(f->metallic, layer->colour, cosine), (float)shine));
-    }
-    return sum;
+    return lit->gloss.any && (lamp & LAMP_SHINES) && !behind ? highlight(lit, l, sum) : sum;
 }
 
-static Rgb iridescence(const Shade *s, const Layer *layer, Vec3 l)
+static Rgb film(const Shade *s, const Layer *layer, Vec3 l)
 {
-    if (!(layer->finish->irid > 0))
-        return rgb_grey(1);
-    return finish_iridescence(layer->finish, s->at.point, fabs(dot(layer->n, l)), fabs(dot(layer->n, s->path->d)),
+    return finish_iridescence(layer->finish, s->at.point, fabs(dot(layer->n, l)), fabs(dot(layer->n, s->path->ray.d)),
                               s->t->world->globals.irid_wavelength, &s->at);
 }
 
-/* Does the light stand behind the surface? `lit`: does it give anything there? */
-static bool stands_behind(const Shade *s, const Layer *layer, Vec3 l, bool *lit)
+static inline Rgb iridescent(const Shade *s, const Layer *layer, Vec3 l, Rgb light)
 {
-    *lit = true;
-    if ((s->material->flags & MATERIAL_DOUBLE_ILLUMINATE) || dot(layer->n, l) >= TINY)
-        return false;
-    *lit = layer->finish->diffuse_back != 0;
-    return true;
+    return layer->finish->irid > 0 ? rgb_mul(light, film(s, layer, l)) : light;
+}
+
+/* Does the light stand behind the surface? */
+static inline bool stands_behind(const Shade *s, const Layer *layer, Vec3 l)
+{
+    return !(s->material->flags & MATERIAL_DOUBLE_ILLUMINATE) && !(dot(layer->n, l) >= TINY);
+}
+
+/* ---- shadows ---- */
+
+Rgb light_shadowed(const Spot *spot, uint32_t index, const Beam *beam)
+{
+    unsigned lamp = spot->t->tracing->lamp[index];
+    if (!(lamp & LAMP_SHADED))
+        return beam->colour;
+    return (lamp & LAMP_AREA) && !spot->roughly ? area_visible(spot, index, beam->colour)
+                                                : shadow_walk(spot, index, beam, beam->colour, NULL);
+}
+
+/* Shadows fall alike on all layers of a hit. */
+static inline Rgb shadowed(Shade *s, uint32_t index, unsigned lamp, const Beam *beam)
+{
+    if (!(lamp & LAMP_REMEMBERED))
+        return light_shadowed(&s->spot, index, beam);
+    if (!(s->known >> index & 1)) {
+        s->known |= 1u << index;
+        s->light[index] = light_shadowed(&s->spot, index, beam);
+    }
+    return s->light[index];
 }
 
 /* ---- the loop ---- */
 
-Rgb light_shadowed(const Spot *spot, uint32_t index, const Beam *beam)
+static double grain_of(const Lit *lit, bool behind)
 {
-    const Light *light = &spot->t->world->light[index];
-    int quality = spot->t->tracing->quality;
-    if (quality < 4 || (light->def->shadowless && light->projected_through == 0))
-        return beam->colour;
-    return light->def->area && quality >= 5 && !spot->roughly ? area_visible(spot, index, beam->colour)
-                                                               : shadow_walk(spot, index, beam, beam->colour, NULL);
-}
-
-/* Shadows fall alike on all layers of a hit. */
-static Rgb shadowed(Shade *s, uint32_t index, const Beam *beam)
-{
-    bool remembered = index < LIGHTS_REMEMBERED && !s->t->world->light[index].grouped;
-    if (remembered && (s->known >> index & 1))
-        return s->light[index];
-    Spot spot = { s->t, s->surface->p, s->surface, s->path->in, s->path->ticket->bounces > 0 };
-    Rgb c = light_shadowed(&spot, index, beam);
-    if (remembered) {
-        s->known |= 1u << index;
-        s->light[index] = c;
-    }
-    return c;
-}
-
-static double grain_of(Shade *s, const Layer *layer, bool behind)
-{
+    const Layer *layer = lit->layer;
     if (!(layer->finish->crand > 0) || !(diffuse_strength(layer, behind) > 0))
         return 0;
-    return (double)layer->finish->crand * streams_crand(&s->t->chance);
+    return (double)layer->finish->crand * streams_crand(&lit->s->t->chance);
 }
 
 /* Every sample shades on its own; shadows are averaged all the same. */
-static Rgb illuminate_by_area(Shade *s, const Layer *layer, const Light *light, const Beam *centre, Rgb visible)
+static Rgb illuminate_by_area(const Lit *lit, uint32_t index, unsigned lamp)
 {
-    Rgb sum = rgb_grey(0);
+    Shade *s = lit->s;
+    const Layer *layer = lit->layer;
+    const Light *light = &s->t->world->light[index];
+    Beam centre;
+    light_towards(light, light->location, s->surface->p, &centre);
+    centre.colour = light->colour;             /* each sample fades on its own */
+    Rgb visible = shadowed(s, index, lamp, &centre), sum = rgb_grey(0);
+    if (is_dark(visible))
+        return sum;
     int n1 = light->def->size1, n2 = light->def->size2;
     Rgb share = rgb_scaled(visible, 1 / (float)(n1 * n2));
-    AreaAxes axes = area_axes(light, centre->l);
+    AreaAxes axes = area_axes(light, centre.l);
     for (int v = 0; v < n2; v++)
         for (int u = 0; u < n1; u++) {
             Beam beam;
-            bool lit;
             Vec3 from = add(light->location, area_sample_place(s->t, light, &axes, u, v));
             if (!light_beam(light, from, s->surface->p, share, &beam))
                 continue;
-            bool behind = stands_behind(s, layer, beam.l, &lit);
-            if (lit)
-                sum = rgb_add(sum, rgb_mul(answer(s, layer, light, beam.l, behind, grain_of(s, layer, behind)), beam.colour));
+            bool behind = stands_behind(s, layer, beam.l);
+            if (!behind || layer->finish->diffuse_back != 0)
+                sum = rgb_add(sum, rgb_mul(answer(lit, lamp, beam.l, behind, grain_of(lit, behind)), beam.colour));
         }
-    return rgb_mul(sum, iridescence(s, layer, centre->l));
+    return iridescent(s, layer, centre.l, sum);
 }
 
-static Rgb shade_light(Shade *s, const Layer *layer, uint32_t index)
+/* Grain is drawn for what is lit only: after the shadow. */
+static Rgb illuminate_grainy(const Lit *lit, uint32_t index, unsigned lamp, const Beam *beam, bool behind)
 {
-    const Light *light = &s->t->world->light[index];
-    Beam beam;
-    bool lit_by_area = light->def->area && light->def->area_illumination && s->t->tracing->quality >= 5 &&
-                       s->path->ticket->bounces == 0;
-    if (!light_beam(light, light->location, s->surface->p, light->colour, &beam) && !lit_by_area)
-        return rgb_grey(0);
-    if (lit_by_area) {
-        beam.colour = light->colour;           /* each sample fades on its own */
-        Rgb visible = shadowed(s, index, &beam);
-        return is_dark(visible) ? rgb_grey(0) : illuminate_by_area(s, layer, light, &beam, visible);
-    }
-    bool lit, behind = stands_behind(s, layer, beam.l, &lit);
-    if (!lit)
-        return rgb_grey(0);
-    bool grainy = layer->finish->crand > 0;
-    Rgb factor = rgb_grey(0);
-    if (!grainy) {
-        factor = answer(s, layer, light, beam.l, behind, 0);
-        if (rgb_is_zero(factor))
-            return factor;
-    }
-    Rgb colour = shadowed(s, index, &beam);
+    Rgb colour = shadowed(lit->s, index, lamp, beam);
     if (is_dark(colour))
         return rgb_grey(0);
-    if (grainy)
-        factor = answer(s, layer, light, beam.l, behind, grain_of(s, layer, behind));
-    return rgb_mul(rgb_mul(factor, iridescence(s, layer, beam.l)), colour);
+    Rgb factor = answer(lit, lamp, beam->l, behind, grain_of(lit, behind));
+    return rgb_mul(iridescent(lit->s, lit->layer, beam->l, factor), colour);
+}
+
+static inline Rgb illuminate(const Lit *lit, uint32_t index)
+{
+    Shade *s = lit->s;
+    const Light *light = &s->t->world->light[index];
+    unsigned lamp = s->t->tracing->lamp[index];
+    if ((lamp & LAMP_AREA_LIGHT) && s->path->ticket->bounces == 0)
+        return illuminate_by_area(lit, index, lamp);
+    Beam beam;
+    if (lamp & LAMP_PLAIN) {
+        aim(&beam, light, sub(light->location, s->surface->p));
+        beam.colour = light->colour;
+    } else if (!light_beam(light, light->location, s->surface->p, light->colour, &beam)) {
+        return rgb_grey(0);
+    }
+    bool behind = stands_behind(s, lit->layer, beam.l);
+    if (behind && lit->layer->finish->diffuse_back == 0)
+        return rgb_grey(0);
+    if (lit->layer->finish->crand > 0)
+        return illuminate_grainy(lit, index, lamp, &beam, behind);
+    Rgb factor = answer(lit, lamp, beam.l, behind, 0);
+    if (rgb_is_zero(factor))
+        return factor;
+    Rgb colour = shadowed(s, index, lamp, &beam);
+    if (is_dark(colour))
+        return rgb_grey(0);
+    return rgb_mul(iridescent(s, lit->layer, beam.l, factor), colour);
 }
 
 Rgb shade_lights(Shade *s, const Layer *layer)
@@ -253,10 +309,9 @@ Rgb shade_lights(Shade *s, const Layer *layer)
         return sum;
     const World *w = s->t->world;
     const Material *m = s->material;
-    if (!(m->flags & MATERIAL_NO_GLOBAL_LIGHTS))
-        for (uint32_t i = 0; i < w->n_global_lights; i++)
-            sum = rgb_add(sum, shade_light(s, layer, i));
-    for (uint32_t i = 0; i < m->n_group_lights; i++)
-        sum = rgb_add(sum, shade_light(s, layer, w->group_light[m->first_group_light + i]));
+    Lit lit = { s, layer, gloss_of(s, layer) };
+    uint32_t n_global = m->flags & MATERIAL_NO_GLOBAL_LIGHTS ? 0 : w->n_global_lights;
+    for (uint32_t i = 0; i < n_global + m->n_group_lights; i++)
+        sum = rgb_add(sum, illuminate(&lit, i < n_global ? i : w->group_light[m->first_group_light + i - n_global]));
     return sum;
 }

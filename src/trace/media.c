@@ -464,7 +464,7 @@ static void add_air(Stretch *s)
 Colour media_air(Tracer *t, const Path *path, double depth, Colour c)
 {
     Stretch s;
-    stretch_start(&s, t, path->o, path->d, depth, path->in);
+    stretch_start(&s, t, path->ray.o, path->ray.d, depth, path->in);
     add_air(&s);
     return s.n > 0 ? seen_through(through(&s), c) : c;
 }
@@ -476,7 +476,7 @@ Colour media_bodies(Tracer *t, const Path *path, const Material *lit_for, double
     if (path->in->n == 0 || !interiors_hollow(t->world, path->in))
         return c;
     Stretch s;
-    stretch_start(&s, t, path->o, path->d, depth, path->in);
+    stretch_start(&s, t, path->ray.o, path->ray.d, depth, path->in);
     s.lit_for = lit_for;
     add_bodies(&s, path->in);
     return s.n > 0 ? seen_through(through(&s), c) : c;

@@ -25,6 +25,15 @@ typedef struct Bow {                           /* a rainbow made ready */
 
 typedef struct MediaLimit { const Media *media; const double *threshold; } MediaLimit;
 
+enum {                                         /* what a light takes, at the quality of the picture */
+    LAMP_PLAIN = 1,                            /* shines alike everywhere: its beam is its colour */
+    LAMP_SHADED = 2,                           /* things stand in its way */
+    LAMP_AREA = 4,                             /* from many places */
+    LAMP_AREA_LIGHT = 8,                       /* and lights from them, too */
+    LAMP_SHINES = 16,                          /* in highlights */
+    LAMP_REMEMBERED = 32                       /* its shadow, for all layers of a hit */
+};
+
 typedef struct Ticket {                        /* limits of a ray and of all that comes from it */
     double adc_bailout;
     int max_level;
@@ -50,6 +59,7 @@ struct Tracing {
     const FogDef *const *fog;   uint32_t n_fog;        /* those that are on */
     Bow *bow;                   uint32_t n_bows;
     double *stream;                            /* stream A, if anything draws from it */
+    uint8_t *lamp;                             /* per light: LAMP_* */
     uint32_t n_area_samples;                   /* of the largest area light */
     uint32_t *area_least;                      /* per light: how many of its samples are asked at the least */
     float hue[3][HUES];                        /* cumulative, red, green, blue */
@@ -77,8 +87,7 @@ struct Tracer {
 };
 
 typedef struct Path {
-    Vec3 o, d;                                 /* d of unit length (refracted: to rounding) */
-    double reach;
+    Ray ray;                                   /* d of unit length (refracted: to rounding) */
     const Interiors *in;
     double weight;
     double wavelength;                         /* of one band of a dispersed ray, nm; 0: white */
@@ -110,6 +119,7 @@ typedef struct Shade {
     int level;                                 /* that secondary rays start with */
     TextureContext at;
     /* Light after shadows, the same for all layers of this hit. */
+    Spot spot;
     uint32_t known;                            /* bit per light */
     Rgb light[LIGHTS_REMEMBERED];
     Colour sum;
@@ -147,6 +157,7 @@ Colour shade_reflect(const Shade *s, const Polish *polish, double weight);     /
 bool shade_transmit(const Shade *s, const Polish *top, Rgb filter, bool filtered, double through, Colour *sum);
 
 /* light.c */
+bool light_is_plain(const Light *light);
 /* from: the light's place, or a sample of its area. */
 void light_towards(const Light *light, Vec3 from, Vec3 p, Beam *out);      /* all but the colour */
 bool light_beam(const Light *light, Vec3 from, Vec3 p, Rgb colour, Beam *out);      /* false: no light */

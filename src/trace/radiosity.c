@@ -318,7 +318,7 @@ static void gather_ray(const Shade *s, Vec3 d, const Ticket *ticket, int level, 
 {
     static const Interiors nowhere = { .n = 0 };
     Tracer *t = s->t;
-    Path path = { .o = surface_offset(s->surface, d), .d = d, .reach = INFINITY, .in = &nowhere, .weight = weight,
+    Path path = { .ray = { surface_offset(s->surface, d), d, 0, INFINITY }, .in = &nowhere, .weight = weight,
                   .skip = PRIM_NO_RADIOSITY, .level = level, .ticket = ticket };
     Rgb c = clamped(rgb_of(trace_path(t, &path)), t->gather->radiosity->def->max_sample);
     out->light = add(out->light, vec3((double)c.r, (double)c.g, (double)c.b));

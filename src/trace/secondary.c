@@ -16,16 +16,16 @@ Vec3 reflected(Vec3 d, Vec3 n, Vec3 raw)
 
 Colour shade_reflect(const Shade *s, const Polish *polish, double weight)
 {
-    Vec3 d = reflected(s->path->d, polish->n, s->surface->normal);
+    Vec3 d = reflected(s->path->ray.d, polish->n, s->surface->normal);
     Path path = {
-        .o = surface_offset(s->surface, d), .d = d, .reach = INFINITY, .in = s->path->in, .weight = weight,
+        .ray = { surface_offset(s->surface, d), d, 0, INFINITY }, .in = s->path->in, .weight = weight,
         .wavelength = s->path->wavelength, .ticket = s->path->ticket, .level = s->level,
         .skip = PRIM_NO_REFLECTION | (s->path->skip & PRIM_NO_RADIOSITY)   /* and no alpha: mirrors see the background opaque */
     };
     Colour c = trace_path(s->t, &path);
     if (!(polish->finish->irid > 0))
         return c;
-    Rgb film = finish_iridescence(polish->finish, s->at.point, fabs(dot(polish->n, d)), fabs(dot(polish->n, s->path->d)),
+    Rgb film = finish_iridescence(polish->finish, s->at.point, fabs(dot(polish->n, d)), fabs(dot(polish->n, s->path->ray.d)),
                                   s->t->world->globals.irid_wavelength, &s->at);
     return (Colour){ c.r * film.r, c.g * film.g, c.b * film.b, c.f, c.t };
 }
@@ -74,14 +74,14 @@ static void cross_into(const Shade *s, Crossing *c)
 static Path passed_on(const Shade *s, const Crossing *c, Vec3 d, double weight)
 {
     uint32_t skip = s->path->skip & PRIM_NO_IMAGE ? PRIM_NO_IMAGE | PRIM_NO_IMAGE_LATER : s->path->skip;
-    return (Path){ .o = surface_offset(s->surface, d), .d = d, .reach = INFINITY, .in = &c->in, .weight = weight,
+    return (Path){ .ray = { surface_offset(s->surface, d), d, 0, INFINITY }, .in = &c->in, .weight = weight,
                    .wavelength = s->path->wavelength, .ticket = s->path->ticket, .skip = skip, .level = s->level, .alpha = s->path->alpha };
 }
 
 /* One bent ray; `total`: it could not leave, and was mirrored. */
 static Colour bent(const Shade *s, const Crossing *c, const Polish *top, double ratio, double wavelength, double weight, bool *total)
 {
-    Vec3 d = s->path->d, n = top->n;
+    Vec3 d = s->path->ray.d, n = top->n;
     double k = fabs(dot(n, d));
     double rest = 1 + ratio * ratio * (k * k - 1);
     *total = rest < 0;
@@ -132,7 +132,7 @@ bool shade_transmit(const Shade *s, const Polish *top, Rgb filter, bool filtered
     Colour seen;
     bool total = false;
     if (fabs(c.ratio - 1) < TINY && fabs(c.dispersion - 1) < TINY) {
-        Path path = passed_on(s, &c, s->path->d, weight);
+        Path path = passed_on(s, &c, s->path->ray.d, weight);
         path.straight = true;
         seen = trace_path(s->t, &path);
     } else if (fabs(c.dispersion - 1) >= TINY && s->path->wavelength == 0) {

@@ -83,6 +83,27 @@ const double *tracing_media_threshold(const Tracing *tracing, const Media *media
     return NULL;
 }
 
+static uint8_t lamp_of(const Light *light, uint32_t index, int quality)
+{
+    const LightSource *def = light->def;
+    bool area = def->area && quality >= 5;
+    int lamp = 0;
+    lamp |= light_is_plain(light) ? LAMP_PLAIN : 0;
+    lamp |= quality >= 4 && !(def->shadowless && light->projected_through == 0) ? LAMP_SHADED : 0;
+    lamp |= area ? LAMP_AREA : 0;
+    lamp |= area && def->area_illumination ? LAMP_AREA_LIGHT : 0;
+    lamp |= def->shadowless ? 0 : LAMP_SHINES;
+    lamp |= index < LIGHTS_REMEMBERED && !light->grouped ? LAMP_REMEMBERED : 0;
+    return (uint8_t)lamp;
+}
+
+static void prepare_lamps(Arena *arena, Tracing *tracing, const World *w)
+{
+    tracing->lamp = arena_array(arena, uint8_t, w->n_lights + 1);
+    for (uint32_t i = 0; i < w->n_lights; i++)
+        tracing->lamp[i] = lamp_of(&w->light[i], i, tracing->quality);
+}
+
 static void prepare_areas(Arena *arena, Tracing *tracing, const World *w)
 {
     tracing->n_area_samples = 1;
@@ -160,6 +181,7 @@ const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha
     tracing->ticket = (Ticket){ .adc_bailout = w->globals.adc_bailout, .max_level = tracing->max_level };
     tracing->radiosity = w->globals.radiosity.on && quality >= 9;
     prepare_areas(arena, tracing, w);
+    prepare_lamps(arena, tracing, w);
     tracing->has_media = quality >= 9 && has_media(w);
     prepare_air(arena, tracing, w->scene);
     tracing->air_dims = quality >= 9 && tracing->n_fog + w->scene->n_media > 0;

@@ -44,7 +44,7 @@ static Rgb reflectivity(const Shade *s, const Finish *f, Vec3 n, Rgb colour)
 {
     if (rgb_is_zero(f->reflection_max) && rgb_is_zero(f->reflection_min))
         return rgb_grey(0);
-    double cosine = -dot(s->path->d, n);
+    double cosine = -dot(s->path->ray.d, n);
     Rgb r;
     if (f->reflection_fresnel) {
         double share = fresnel(interior_ratio(s->t->world, s->path->in, s->interior), cosine);
@@ -213,9 +213,8 @@ Colour shade_hit(Tracer *t, const Path *path, const Hit *hit, int level)
 {
     const World *w = t->world;
     const Material *m = &w->material[w->prim[hit->prim].material];
-    Ray ray = { path->o, path->d, 0, path->reach };
     Surface surface;
-    world_surface(w, &ray, hit, t->tracing->wants_uv, &surface);
+    world_surface(w, &path->ray, hit, t->tracing->wants_uv, &surface);
     Shade s;                                   /* not cleared: nothing of `light` is known */
     s.t = t;
     s.path = path;
@@ -224,9 +223,10 @@ Colour shade_hit(Tracer *t, const Path *path, const Hit *hit, int level)
     s.interior = m->interior;
     s.depth = hit->t;
     s.level = level;
+    s.spot = (Spot){ t, surface.p, &surface, path->in, path->ticket->bounces > 0 };
     s.known = 0;
     s.sum = (Colour){ 0, 0, 0, 0, 0 };
-    s.at = (TextureContext){ .point = scaled(surface.p, t->tracing->to_scene), .ray = path->d, .normal = surface.normal,
+    s.at = (TextureContext){ .point = scaled(surface.p, t->tracing->to_scene), .ray = path->ray.d, .normal = surface.normal,
                              .uv = surface.uv, .hit = true, .quality = t->tracing->quality,
                              .number_of_waves = w->globals.number_of_waves, .noise_generator = w->globals.noise_generator };
     uint32_t texture = m->texture;

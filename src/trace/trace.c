@@ -13,11 +13,11 @@ static Colour through_air(Tracer *t, const Path *path, double depth, Colour c)
     if (!interiors_hollow(t->world, path->in))
         return c;
     if (tracing->n_bows > 0)
-        c = rainbow_apply(t, path->d, depth, c);
+        c = rainbow_apply(t, path->ray.d, depth, c);
     if (n_media > 0)
         c = media_air(t, path, depth, c);
     if (tracing->n_fog > 0)
-        c = fog_apply(tracing, path->o, path->d, depth, c);
+        c = fog_apply(tracing, path->ray.o, path->ray.d, depth, c);
     return c;
 }
 
@@ -28,16 +28,15 @@ Colour trace_path(Tracer *t, const Path *path)
     if (path->level >= path->ticket->max_level || path->weight < path->ticket->adc_bailout || t->nesting >= NESTING_MAX)
         return BLACK;
     int level = path->level + (path->straight ? 0 : 1);
-    Ray ray = { path->o, path->d, 0, path->reach };
     Hit hit;
     t->nesting++;
     Colour c;
     double depth = FAR_AWAY;
-    if (world_nearest(t->world, &ray, path->skip, &hit)) {
+    if (world_nearest(t->world, &path->ray, path->skip, &hit)) {
         c = shade_hit(t, path, &hit, level);
         depth = hit.t;
     } else {
-        c = sky_colour(tracing, path->d, path->alpha);
+        c = sky_colour(tracing, path->ray.d, path->alpha);
     }
     t->nesting--;
     t->depth = depth;
@@ -51,6 +50,6 @@ void tracer_interiors(const Tracer *t, Vec3 p, Interiors *out)
 
 Colour tracer_camera_ray(Tracer *t, Vec3 o, Vec3 d, double reach, const Interiors *around)
 {
-    Path path = { .o = o, .d = d, .reach = reach, .in = around, .weight = 1, .ticket = &t->tracing->ticket, .skip = PRIM_NO_IMAGE, .alpha = t->tracing->alpha };
+    Path path = { .ray = { o, d, 0, reach }, .in = around, .weight = 1, .ticket = &t->tracing->ticket, .skip = PRIM_NO_IMAGE, .alpha = t->tracing->alpha };
     return trace_path(t, &path);
 }
