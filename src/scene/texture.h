@@ -149,4 +149,11 @@ struct Texture {
     const Texture *below;
 };
 
+/* One of a long list, such as a mesh with a texture for each of its triangles: most differ in their colour alone. */
+typedef struct ListedTexture {
+    const Texture *texture;
+    bool coloured;                             /* its top layer is of this colour instead */
+    Colour colour;
+} ListedTexture;
+
 #endif

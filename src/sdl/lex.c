@@ -366,6 +366,19 @@ bool lex_numbers_literal(Lexer *lexer, int n, double *out)
     return true;
 }
 
+bool lex_texture_literal(Lexer *lexer, Colour *out)
+{
+    Lexer l = *lexer;
+    const char *s = fast_word(&l, l.at, "texture", 7);
+    if (!s)
+        return false;
+    l.at = s;
+    if (!lex_pigment_literal(&l, true, out))
+        return false;
+    *lexer = l;
+    return true;
+}
+
 bool lex_pigment_literal(Lexer *lexer, bool texture, Colour *out)
 {
     Lexer l = *lexer;

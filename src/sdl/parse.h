@@ -56,6 +56,7 @@ const Object *parse_object(Parser *p);         /* NULL if the next token starts 
 const Pigment *parse_pigment(Parser *p);       /* at `pigment` */
 const Normal *parse_normal(Parser *p);         /* at `normal` */
 const Texture *parse_texture(Parser *p);       /* at `texture`: one block; its layers */
+ListedTexture parse_listed_texture(Parser *p); /* the same, or an identifier */
 /* One texture, pigment, normal, finish or transform of a part with a texture of its own (component of a blob). *texture begins as
  * NULL and already carries what was written after it; *place is composed on. */
 bool parse_part_item(Parser *p, const Texture **texture, Affine *place);

@@ -46,6 +46,7 @@ bool lex_numbers_literal(Lexer *l, int n, double *out);     /* n of them, behind
 /* `{ rgb <a,b,c> }` behind `pigment`, or `{ pigment { rgb <a,b,c> } }` behind `texture`; rgbf, rgbt, rgbft and a `color` before
  * them too. Takes it whole or takes nothing. */
 bool lex_pigment_literal(Lexer *l, bool texture, Colour *out);
+bool lex_texture_literal(Lexer *l, Colour *out);           /* the latter with `texture` itself still to come */
 /* Skips blanks and comments; true if the character after them is `c`, which is taken. */
 bool lex_accept(Parser *p, Lexer *l, char c);
 int lex_peek_char(Parser *p, Lexer *l);        /* the next character that counts, not taken; -1 at the end */

@@ -3,6 +3,8 @@
  * Copies of a mesh share all of it. A hit's part is the number of the triangle, u and v are barycentric. */
 #include "shape/mesh.h"
 
+#include <string.h>
+
 #include "sdl/parse.h"
 #include "shape/shape.h"
 #include "shape/triangle.h"
@@ -132,15 +134,51 @@ static bool is_closed(const MeshParams *m)
     return sum == 0;
 }
 
+/* An earlier one in the list that looks the same is taken again, if it is among the last ones of its hash. */
+enum { RECENT_TEXTURES = 1024 };
+
+static bool same_texture(const ListedTexture *a, const ListedTexture *b)
+{
+    return a->texture == b->texture && a->coloured == b->coloured && memcmp(&a->colour, &b->colour, sizeof a->colour) == 0;
+}
+
+static uint32_t colour_hash(const Colour *c)
+{
+    uint32_t bits[5], h = 0;
+    memcpy(bits, c, sizeof bits);
+    for (int i = 0; i < 5; i++)
+        h = (h ^ bits[i]) * 0x9e3779b1u;
+    return h >> 16;
+}
+
+static uint32_t listed_texture(ShapeBuild *b, const ListedTexture *t)
+{
+    if (!t->coloured)
+        return build_texture(b, t->texture, NULL);
+    Texture *own = build_data(b, sizeof *own);
+    Pigment *pigment = build_data(b, sizeof *pigment);
+    *pigment = (Pigment){ .kind = PIGMENT_PLAIN, .colour = t->colour };
+    *own = *t->texture;
+    own->pigment = pigment;
+    return build_texture(b, own, NULL);
+}
+
 /* Only what some face has: a list may be longer. 0 is no texture yet. */
 static const uint32_t *used_textures(ShapeBuild *b, const MeshParams *m)
 {
     uint32_t *texture = build_data(b, m->n_textures * sizeof *texture);
+    uint32_t recent[RECENT_TEXTURES] = { 0 };  /* number in the list */
     for (uint32_t i = 0; m->face_texture != NULL && i < m->n_faces; i++)
         for (int k = 0; k < 3; k++) {
             uint32_t t = m->face_texture[i].v[k];
-            if (t != MESH_NONE && texture[t] == 0)
-                texture[t] = build_texture(b, m->texture[t], NULL);
+            if (t == MESH_NONE || texture[t] != 0)
+                continue;
+            uint32_t *like = &recent[colour_hash(&m->texture[t].colour) % RECENT_TEXTURES];
+            if (texture[*like] == 0 || !same_texture(&m->texture[*like], &m->texture[t])) {
+                texture[t] = listed_texture(b, &m->texture[t]);
+                *like = t;
+            } else
+                texture[t] = texture[*like];
         }
     return texture;
 }

@@ -16,7 +16,7 @@ typedef struct MeshParams {
     double unit;
     Float3 *vertex, *normal;
     Vec2 *uv;
-    const Texture *const *texture;
+    const ListedTexture *texture;
     Index3 *face;                              /* into vertex */
     Index3 *face_normal;                       /* into normal; NULL: all flat; v[0] == MESH_NONE: this one is */
     Index3 *face_uv;                           /* into uv; NULL or MESH_NONE: <0,0> */

@@ -17,7 +17,7 @@ typedef ARRAY(Index3) Faces;
 struct MeshSoup {
     Pool vertex, normal, uv;
     Faces face, face_normal, face_uv, face_texture;        /* the last three end where their last use was */
-    ARRAY(const Texture *) texture;
+    ARRAY(ListedTexture) texture;
     bool zero_normal;
 };
 typedef struct MeshSoup Soup;
@@ -64,9 +64,9 @@ static uint32_t pool_index(Arena *a, Pool *pool, const void *item, uint32_t size
 static uint32_t texture_index(Arena *a, Soup *s, const Texture *t)
 {
     for (uint32_t i = s->texture.n; i-- > 0;)
-        if (s->texture.data[i] == t)
+        if (s->texture.data[i].texture == t)
             return i;
-    array_push(a, &s->texture, t);
+    array_push(a, &s->texture, (ListedTexture){ .texture = t });
     return s->texture.n - 1;
 }
 

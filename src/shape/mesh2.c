@@ -83,17 +83,14 @@ static void uv_vectors(Parser *p, MeshParams *m)
 
 static void texture_list(Parser *p, MeshParams *m)
 {
-    Arena *a = parse_arena(p);
-    uint32_t n = list_length(p, "texture_list");
-    ARRAY(const Texture *) list = { 0 };
+    uint32_t n = list_length(p, "texture_list"), capacity = 0;
+    ListedTexture *list = NULL;
     for (uint32_t i = 0; i < n; i++) {
+        list = room(p, list, &capacity, i, n, sizeof *list);
         parse_comma(p);
-        const Texture *t = parse_take_block(p, BLOCK_TEXTURE);
-        if (t == NULL && parse_peek(p) != KW_TEXTURE)
-            parse_expected(p, "texture");
-        array_push(a, &list, t != NULL ? t : parse_texture(p));
+        list[i] = parse_listed_texture(p);
     }
-    m->texture = list.data;
+    m->texture = list;
     m->n_textures = n;
     list_end(p);
 }
