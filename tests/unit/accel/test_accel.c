@@ -123,7 +123,7 @@ static void random_scenes_are_hit_alike(void **state)
 static void thousands_of_balls_are_hit_alike(void **state)
 {
     (void)state;
-    enum { N = 4000 };
+    enum { N = 5000 };
     Arena a;
     arena_init(&a);
     Dice d = { 7 };
@@ -199,6 +199,31 @@ static void odd_boxes_are_offered_whenever_a_ray_may_meet_them(void **state)
     arena_free(&a);
 }
 
+/* Crowds within crowds, some in one place, and a few far away: grids in cells of grids. */
+static void each_of_many_boxes_stands_in_the_tree_once(void **state)
+{
+    (void)state;
+    enum { N = 20000 };
+    Arena a;
+    arena_init(&a);
+    Dice d = { 11 };
+    Bounds *box = arena_array(&a, Bounds, N);
+    for (uint32_t i = 0; i < N; i++) {
+        static const double spread[4] = { 1e6, 1, 1e-4, 0 };
+        Vec3 p = dice_point(&d, spread[i % 97 == 0 ? 0 : 1 + i % 3]);
+        box[i] = (Bounds){ p, add(p, vec3(1e-3 * dice(&d), i % 5 == 0 ? 0 : 1e-5, 1e-4)) };
+    }
+    void *tree = accel_bvh.build(&a, box, N);
+    uint32_t *seen = arena_array(&a, uint32_t, N);
+    for (uint32_t i = 0; i < N; i += 7) {
+        memset(seen, 0, N * sizeof *seen);
+        accel_bvh.around(tree, box[i].lo, count_item, seen);
+        for (uint32_t k = 0; k < N; k++)
+            assert_true(seen[k] <= 1 && (seen[k] == 1 || !bounds_contain(box[k], box[i].lo)));
+    }
+    arena_free(&a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -206,6 +231,7 @@ int main(void)
         cmocka_unit_test(thousands_of_balls_are_hit_alike),
         cmocka_unit_test(rays_along_a_lattice_are_hit_alike),
         cmocka_unit_test(odd_boxes_are_offered_whenever_a_ray_may_meet_them),
+        cmocka_unit_test(each_of_many_boxes_stands_in_the_tree_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
