@@ -285,7 +285,7 @@ static void unit(Num *out, int axis)
     *out = (Num){ { axis == 0, axis == 1, axis == 2 }, 3 };
 }
 
-static void factor(Fast *f, Num *out)
+static __attribute__((noinline)) void any_factor(Fast *f, Num *out)
 {
     set(out, 0);
     if (f->at == f->end || ++f->depth > DEEPEST) {
@@ -297,11 +297,11 @@ static void factor(Fast *f, Num *out)
     case TOK_NUMBER: out->v[0] = t->number; break;
     case TOK_NAME: name(f, t->sym, out); break;
     case TOK_MINUS:
-        factor(f, out);
+        any_factor(f, out);
         for (int i = 0; i < out->terms; i++)
             out->v[i] = -out->v[i];
         break;
-    case TOK_PLUS: factor(f, out); break;
+    case TOK_PLUS: any_factor(f, out); break;
     case TOK_LPAREN:
         full(f, out);
         expect(f, TOK_RPAREN);
@@ -324,6 +324,26 @@ static void factor(Fast *f, Num *out)
     f->depth--;
 }
 
+/* Most are literals and floats: a third of the time of a plain loop. */
+static inline void factor(Fast *f, Num *out)
+{
+    const Token *t = f->at;
+    if (t < f->end && (t + 1 == f->end || t[1].kind != TOK_DOT)) {
+        if (t->kind == TOK_NUMBER) {
+            f->at++;
+            set(out, t->number);
+            return;
+        }
+        const Binding *b = t->kind == TOK_NAME ? t->sym->binding : NULL;
+        if (b && !b->deprecated && b->value->kind == VALUE_NUMBER && b->value->terms == 1) {
+            f->at++;
+            set(out, b->value->v[0]);
+            return;
+        }
+    }
+    any_factor(f, out);
+}
+
 static double of_floats(Fast *f, int kind, double a, double b)
 {
     switch (kind) {
@@ -335,8 +355,12 @@ static double of_floats(Fast *f, int kind, double a, double b)
     }
 }
 
-static inline void operate(Fast *f, int kind, Num *a, Num *b)
+static void operate(Fast *f, int kind, Num *a, Num *b)
 {
+    if (a->terms == 1 && b->terms == 1) {
+        a->v[0] = of_floats(f, kind, a->v[0], b->v[0]);
+        return;
+    }
     if (a->terms != b->terms) {
         num_promote(a, b->terms);
         num_promote(b, a->terms);
@@ -474,10 +498,36 @@ bool fast_condition(Parser *p, bool *out)
     return true;
 }
 
-/* Is an item of #write over here, with nothing that might go on with it? The comma behind it is taken. */
+/* Is an item or argument over here, with nothing that might go on with it? The comma behind it is taken. */
 static bool end_item(Fast *f)
 {
     return take(f, TOK_COMMA) || next_kind(f) == TOK_RPAREN;
+}
+
+bool fast_argument(Parser *p, Num *number, Value **by_reference)
+{
+    Fast f;
+    *by_reference = NULL;
+    if (!start(p, &f))
+        return false;
+    const Binding *b = next_kind(&f) == TOK_NAME ? f.at->sym->binding : NULL;
+    int kind = b ? b->value->kind : VALUE_NONE;
+    if (kind == VALUE_ARRAY)                   /* perhaps an item by reference */
+        return false;
+    if (kind == VALUE_NUMBER || kind == VALUE_STRING || kind == VALUE_BLOCK) {
+        const Token *first = f.at++;
+        if (!b->deprecated && end_item(&f)) {
+            *by_reference = b->value;
+            finish(p, &f);
+            return true;
+        }
+        f.at = first;
+    }
+    sum(&f, number);
+    if (f.failed || !end_item(&f))
+        return abandon(&f);
+    finish(p, &f);
+    return true;
 }
 
 const Token *fast_text_item(Parser *p)

@@ -279,21 +279,29 @@ static inline const char *fast_blank(Lexer *l, const char *s)
     return s;
 }
 
+/* A literal with a sign or none, and the blanks behind it; NULL if there is none. */
+static const char *fast_number(Lexer *l, const char *s, double *out)
+{
+    s = fast_blank(l, s);
+    bool negative = s < l->end && *s == '-';
+    s += negative;
+    if (s >= l->end || !(class_at(s) == C_DIGIT || (*s == '.' && s + 1 < l->end && class_at(s + 1) == C_DIGIT)))
+        return NULL;
+    double v = 0;
+    if (!number_scan(&s, l->end, &v))
+        return NULL;
+    *out = negative ? -v : v;
+    return fast_blank(l, s);
+}
+
 /* n literals with commas between them and a '>' behind the last. */
 static bool fast_numbers(Lexer *l, const char **at, int n, double *out)
 {
     const char *s = *at;
     for (int i = 0; i < n; i++) {
-        s = fast_blank(l, s);
-        bool negative = s < l->end && *s == '-';
-        s += negative;
-        if (s >= l->end || !(class_at(s) == C_DIGIT || (*s == '.' && s + 1 < l->end && class_at(s + 1) == C_DIGIT)))
+        s = fast_number(l, s, &out[i]);
+        if (s == NULL)
             return false;
-        double v = 0;
-        if (!number_scan(&s, l->end, &v))
-            return false;
-        out[i] = negative ? -v : v;
-        s = fast_blank(l, s);
         if (s >= l->end || *s != (i < n - 1 ? ',' : '>'))
             return false;
         s++;
@@ -377,6 +385,27 @@ bool lex_texture_literal(Lexer *lexer, Colour *out)
         return false;
     *lexer = l;
     return true;
+}
+
+int lex_argument_literal(Lexer *lexer, double out[5])
+{
+    Lexer l = *lexer;
+    const char *s = fast_mark(&l, l.at, '<');
+    int n = 0;
+    if (s == NULL) {
+        s = fast_number(&l, l.at, &out[n++]);
+    } else {
+        do
+            s = fast_number(&l, s, &out[n++]);
+        while (s != NULL && n < 5 && s < l.end && *s == ',' && s++);
+        s = s != NULL && n > 1 ? fast_mark(&l, s, '>') : NULL;
+    }
+    s = s != NULL ? fast_blank(&l, s) : NULL;
+    if (s == NULL || s >= l.end || (*s != ',' && *s != ')'))
+        return 0;
+    l.at = s + (*s == ',');
+    *lexer = l;
+    return n;
 }
 
 bool lex_pigment_literal(Lexer *lexer, bool texture, Colour *out)

@@ -85,6 +85,22 @@ static void argument(Parser *p, Argument *a)
     }
 }
 
+/* The same for most arguments: literals in files, plain numbers and names in loops and macros. Takes the comma behind it, too. */
+static bool plain_argument(Parser *p, Argument *a)
+{
+    Reader *r = cursor_top(p);
+    Num n;
+    if (p->have)
+        return false;
+    if (r->is_file)
+        n.terms = lex_argument_literal(&r->lexer, n.v);
+    if (r->is_file ? n.terms == 0 : !fast_argument(p, &n, &a->by_reference))
+        return false;
+    if (!a->by_reference)
+        value_set_number(p, &a->value, &n);
+    return true;
+}
+
 void macro_call(Parser *p, const Macro *m, Loc loc)
 {
     bool was = p->suspended;
@@ -95,6 +111,8 @@ void macro_call(Parser *p, const Macro *m, Loc loc)
     Argument *a = arena_array(&p->temp, Argument, m->n_parameters);
     parse_expect(p, TOK_LPAREN);
     for (uint32_t i = 0; i < m->n_parameters; i++) {
+        if (plain_argument(p, &a[i]))
+            continue;
         if (parse_peek(p) == TOK_RPAREN)
             fail(p->diag, loc, "Expected %u parameters but only %u found.", m->n_parameters, i);
         argument(p, &a[i]);

@@ -228,6 +228,8 @@ static inline double random_next(uint32_t *state)         /* 01-language, sectio
 bool fast_sum(Parser *p, Num *out);
 bool fast_condition(Parser *p, bool *out);
 bool fast_declare(Parser *p, bool local);
+/* A macro's argument and the comma behind it: a number, or the value of a name alone. */
+bool fast_argument(Parser *p, Num *number, Value **by_reference);
 /* An item of #write and the comma behind it: a literal string, or str() and its arguments, |width| and |precision| below 1000. */
 const Token *fast_text_item(Parser *p);        /* NULL if it is none */
 bool fast_str_item(Parser *p, double argument[3]);

@@ -43,6 +43,8 @@ void lex_next(Parser *p, Lexer *l, Token *out);
  * inside: the `<` has been taken already. */
 bool lex_vector_literal(Lexer *l, bool inside, double out[3]);
 bool lex_numbers_literal(Lexer *l, int n, double *out);     /* n of them, behind a '<' that is still to come: of matrix */
+/* A macro's argument that is a literal float or vector, and the ',' behind it, or before a ')': its terms; 0, nothing taken: another. */
+int lex_argument_literal(Lexer *l, double out[5]);
 /* `{ rgb <a,b,c> }` behind `pigment`, or `{ pigment { rgb <a,b,c> } }` behind `texture`; rgbf, rgbt, rgbft and a `color` before
  * them too. Takes it whole or takes nothing. */
 bool lex_pigment_literal(Lexer *l, bool texture, Colour *out);
