@@ -68,16 +68,17 @@ static void survey_object(Survey *s, const Object *o, const Affine *around)
 {
     if (o == NULL)
         return;
-    Affine place = affine_then(affine_of(o->place), *around);
+    Affine room;
+    const Affine *place = place_within(o->place, around, &room);
     if (o->kind == OBJECT_SHAPE) {
         s->n_shapes += s->n_shapes < UINT32_MAX;
         if (o->ops->extent != NULL)
-            survey_box(s, o->ops->extent(o->params, &place));
+            survey_box(s, o->ops->extent(o->params, place));
     }
     if (o->kind == OBJECT_LIGHT && o->light->looks_like != NULL)
-        survey_object(s, o->light->looks_like, &place);
+        survey_object(s, o->light->looks_like, place);
     for (uint32_t i = 0; i < o->n_child; i++)
-        survey_object(s, o->child[i], &place);
+        survey_object(s, o->child[i], place);
 }
 
 /* ---- begin and end ---- */

@@ -130,6 +130,17 @@ void light_add(Compile *c, const Object *o, const Inherited *from, bool grouped)
 void light_group(Compile *c, const Object *group, Inherited *members);
 void lights_end(Compile *c);                   /* gives them to the World, with what they shine through */
 
+/* `own` (NULL: identity), then `around`: one of the two where that is enough, else joined in *room. */
+static inline const Affine *place_within(const Affine *own, const Affine *around, Affine *room)
+{
+    if (own == NULL || own->identity)
+        return around;
+    if (around->identity)
+        return own;
+    *room = affine_then(*own, *around);
+    return room;
+}
+
 static inline bool is_node(uint32_t item)
 {
     return (item & 0x80000000u) != 0;

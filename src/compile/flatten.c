@@ -144,12 +144,12 @@ static const Shared *shape_shared(Compile *c, ShapeBuild *b, const Object *o)
     return &c->shared.data[*slot - 1];
 }
 
-static void shape_compile(Compile *c, const Object *o, const Inherited *from)
+/* place: the shape's own space to the scene. */
+static void shape_compile(Compile *c, const Object *o, const Inherited *from, const Affine *place)
 {
     bool shared = (o->ops->flags & SHAPE_SHARED) != 0;
-    Affine in_scene = affine_then(affine_of(o->place), *from->place);
     c->from = from;
-    c->shape_place = affine_then(in_scene, c->to_world);
+    c->shape_place = affine_then(*place, c->to_world);
     c->asked_own = false;
     c->all_opaque = true;
     c->no_inside = false;
@@ -171,8 +171,8 @@ static void shape_compile(Compile *c, const Object *o, const Inherited *from)
     c->no_inside = s->no_inside;
     for (uint32_t i = 0; i < s->n; i++) {
         const SharedPrim *p = &c->shared_prim.data[s->first + i];
-        Affine place = affine_then(p->place, c->shape_place);
-        prim_add(c, o->ops, p->data, &place, p->local);
+        Affine room;
+        prim_add(c, o->ops, p->data, place_within(&p->place, &c->shape_place, &room), p->local);
     }
     if (s == &only)
         c->shared_prim.n = only.first;
@@ -200,12 +200,11 @@ static uint32_t flags_of(const Object *o)
            (o->flags & OBJECT_NO_RADIOSITY ? PRIM_NO_RADIOSITY : 0);
 }
 
-/* What o and its children live with. `place` becomes o's own space. */
-static Inherited inherit(Compile *c, const Object *o, const Inherited *from, Affine *place)
+/* What o and its children live with. Its place is o's own space, and may stand in *room. */
+static Inherited inherit(Compile *c, const Object *o, const Inherited *from, Affine *room)
 {
     Inherited in = *from;
-    *place = affine_then(affine_of(o->place), *from->place);
-    in.place = place;
+    in.place = place_within(o->place, from->place, room);
     in.lights_known = false;
     in.may_repeat |= (o->flags & OBJECT_DECLARED) != 0;
     in.inversions += (o->flags & OBJECT_INVERSE) != 0;
@@ -257,14 +256,14 @@ static uint32_t shape_material(Compile *c, const Inherited *in, const Inherited 
 static uint32_t shape_prims(Compile *c, const Object *o, const Inherited *from)
 {
     uint32_t first = c->prim.n;
-    Affine place;
-    Inherited in = inherit(c, o, from, &place);
+    Affine room;
+    Inherited in = inherit(c, o, from, &room);
     bool patch = ((o->ops->flags & SHAPE_PATCH) && !(o->flags & OBJECT_HAS_INSIDE)) || o->ops->inside == NULL;
     c->shape_flags = in.prim_flags | (in.inversions % 2 && o->ops->inside != NULL ? PRIM_INVERSE : 0) | (patch ? PRIM_PATCH : 0);
     c->shape_material = c->geometry_only ? 0 : shape_material(c, &in, from);
     Material m = c->material.data[c->shape_material];
     bool opaque = !c->geometry_only && textures_opaque(c, &m) && !(m.flags & MATERIAL_CUTAWAY);
-    shape_compile(c, o, from);
+    shape_compile(c, o, from, in.place);
     for (uint32_t i = first; i < c->prim.n; i++) {
         Prim *prim = &c->prim.data[i];
         if (opaque && c->all_opaque)
@@ -310,8 +309,8 @@ static CsgOp operation(const Object *o, uint32_t inversions, uint32_t *flags)
 static uint32_t set_operation(Compile *c, const Object *o, const Inherited *from)
 {
     uint32_t first_prim = c->prim.n, flags = 0;
-    Affine place;
-    Inherited in = inherit(c, o, from, &place);
+    Affine room;
+    Inherited in = inherit(c, o, from, &room);
     share_interior(c, &in);
     in.in_csg = true;
     if (in.cutaway)
@@ -420,8 +419,8 @@ uint32_t flatten_item(Compile *c, const Object *o, const Inherited *from)
             light_add(c, o, from, false);
         if (o->light->looks_like == NULL)
             return NO_ITEM;
-        Affine place;
-        Inherited in = inherit(c, o, from, &place);
+        Affine room;
+        Inherited in = inherit(c, o, from, &room);
         in.prim_flags |= PRIM_NO_SHADOW;
         return flatten_item(c, o->light->looks_like, &in);
     }
@@ -481,8 +480,8 @@ static bool dissolves(const Object *o, const Inherited *from)
 
 static void dissolve(Compile *c, const Object *o, const Inherited *from)
 {
-    Affine place;
-    Inherited in = inherit(c, o, from, &place);
+    Affine room;
+    Inherited in = inherit(c, o, from, &room);
     in.prim_flags |= flags_of(o);
     if (o->kind == OBJECT_LIGHT_GROUP && !c->geometry_only)
         light_group(c, o, &in);

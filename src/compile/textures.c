@@ -83,8 +83,9 @@ static const Texture *pruned(Compile *c, const Texture *t)
 uint32_t texture_placed(Compile *c, const Texture *t, const Affine *own, const Affine *around)
 {
     t = pruned(c, t);
-    Affine place = affine_then(affine_of(own), *around);
-    TextureKey key = { t, place.identity || texture_is_uniform(t) ? NULL : &place };
+    Affine room;
+    const Affine *place = texture_is_uniform(t) ? NULL : place_within(own, around, &room);
+    TextureKey key = { t, place != NULL && place->identity ? NULL : place };
     uint32_t *slot = table_find(c, &c->textures, texture_hash_of(key.texture, key.place), &key, texture_same, texture_hash);
     if (*slot == 0) {
         const Affine *kept = key.place == NULL ? NULL : arena_copy(c->arena, key.place, sizeof *key.place);
