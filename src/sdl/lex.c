@@ -328,8 +328,9 @@ static const char *fast_mark(Lexer *l, const char *s, char mark)
 /* Behind `rgb`, `rgbf`, `rgbt` or `rgbft`, with a `color` before it or not. */
 static const char *fast_rgb(Lexer *l, const char *s, bool *filter, bool *transmit)
 {
+    s = fast_blank(l, s);                      /* once: lines are counted */
     const char *color = fast_word(l, s, "color", 5);
-    s = fast_blank(l, color ? color : s);
+    s = color ? fast_blank(l, color) : s;
     if (l->end - s < 6 || memcmp(s, "rgb", 3) != 0)
         return NULL;
     s += 3;
@@ -390,11 +391,14 @@ bool lex_texture_literal(Lexer *lexer, Colour *out)
 int lex_argument_literal(Lexer *lexer, double out[5])
 {
     Lexer l = *lexer;
-    const char *s = fast_mark(&l, l.at, '<');
+    const char *s = fast_blank(&l, l.at);
     int n = 0;
-    if (s == NULL) {
-        s = fast_number(&l, l.at, &out[n++]);
+    if (s >= l.end)
+        return 0;
+    if (*s != '<') {
+        s = fast_number(&l, s, &out[n++]);
     } else {
+        s++;
         do
             s = fast_number(&l, s, &out[n++]);
         while (s != NULL && n < 5 && s < l.end && *s == ',' && s++);

@@ -33,6 +33,7 @@ static const Row rows[] = {
     { "#macro Broken()\n  #declare X = 1/;\n#end\nBroken()",
       "scene.pov:2:18: error: Expected 'numeric expression', ; found instead\n"
       "    #declare X = 1/;\n                   ^\n  in macro Broken called at scene.pov:4:1" },
+    { "#macro M(A,B) #end\nM(\n\n1,\n2)\nM(\n<1,2>\n,\n\"x\")\n;", "scene.pov:10:1: error: Expected 'object or directive', ; found" },
     { "#macro R(N) #if (N>0) R(N-1) #end #end R(200)", "error: Too many nested" },
     { "#macro R() (R()) #end #declare A=R();", "error: " },
     { "#macro R() #local A=R(); #end R()", "error: " },
