@@ -259,7 +259,8 @@ static uint32_t shape_prims(Compile *c, const Object *o, const Inherited *from)
     Affine room;
     Inherited in = inherit(c, o, from, &room);
     bool patch = ((o->ops->flags & SHAPE_PATCH) && !(o->flags & OBJECT_HAS_INSIDE)) || o->ops->inside == NULL;
-    c->shape_flags = in.prim_flags | (in.inversions % 2 && o->ops->inside != NULL ? PRIM_INVERSE : 0) | (patch ? PRIM_PATCH : 0);
+    c->shape_flags = in.prim_flags | (in.inversions % 2 && o->ops->inside != NULL ? PRIM_INVERSE : 0) | (patch ? PRIM_PATCH : 0) |
+                     ((o->ops->flags & SHAPE_CONVEX) && !(o->flags & OBJECT_OPEN) ? PRIM_CONVEX : 0);
     c->shape_material = c->geometry_only ? 0 : shape_material(c, &in, from);
     Material m = c->material.data[c->shape_material];
     bool opaque = !c->geometry_only && textures_opaque(c, &m) && !(m.flags & MATERIAL_CUTAWAY);

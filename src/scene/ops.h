@@ -47,6 +47,8 @@ struct ShapeOps {
     Bounds (*within)(const void *shape, Bounds box);
     /* Optional: the shape is the half space normal . p <= distance, the normal of unit length: several may have a box. */
     void (*half_space)(const void *shape, Vec3 *normal, double *distance);
+    /* Optional: the largest n . p of its points, n of any length; closer than its box. */
+    double (*reach)(const void *shape, Vec3 n);
     bool (*inside)(const void *shape, Vec3 p);                 /* NULL: never inside */
     void (*surface)(const void *shape, const Hit *hit, Surface *out);  /* for the winner only; see Surface */
     /* The box that min_extent and max_extent report (08-shapes 4.1), in the space `place` takes the shape's own to: some

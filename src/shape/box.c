@@ -78,6 +78,12 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     hit_add(sink, t_out, (uint32_t)out);
 }
 
+static double reach(const void *shape, Vec3 n)
+{
+    const Box *box = shape;
+    return n.x * box->side[n.x > 0][0] + n.y * box->side[n.y > 0][1] + n.z * box->side[n.z > 0][2];
+}
+
 static bool inside(const void *shape, Vec3 p)
 {
     const Box *box = shape;
@@ -123,5 +129,5 @@ static Bounds extent(const void *params, const Affine *place)
 
 const ShapeOps shape_box = {
     .keyword = "box", .params_size = sizeof(Params), .flags = SHAPE_HAS_UV | SHAPE_CONVEX, .parse = parse, .compile = compile,
-    .hits = hits, .inside = inside, .surface = surface, .extent = extent,
+    .hits = hits, .reach = reach, .inside = inside, .surface = surface, .extent = extent,
 };

@@ -104,6 +104,13 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
         hit_add(sink, shift + end_out, d.z > 0 ? 2 : 1);
 }
 
+static double reach(const void *shape, Vec3 n)
+{
+    const Cone *c = shape;
+    double across = sqrt(n.x * n.x + n.y * n.y);
+    return greater(c->base * across, across + n.z);
+}
+
 static bool inside(const void *shape, Vec3 p)
 {
     const Cone *c = shape;
@@ -137,5 +144,5 @@ static Bounds extent(const void *params, const Affine *place)
 
 const ShapeOps shape_cone = {
     .keyword = "cone", .params_size = sizeof(Params), .flags = SHAPE_HAS_OPEN | SHAPE_CONVEX, .parse = parse, .compile = compile,
-    .hits = hits, .inside = inside, .surface = surface, .extent = extent,
+    .hits = hits, .reach = reach, .inside = inside, .surface = surface, .extent = extent,
 };

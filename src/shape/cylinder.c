@@ -75,6 +75,12 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
         hit_add(sink, end_out, d.z > 0 ? 2 : 1);
 }
 
+static double reach(const void *shape, Vec3 n)
+{
+    (void)shape;
+    return sqrt(n.x * n.x + n.y * n.y) + greater(n.z, 0);
+}
+
 static bool inside(const void *shape, Vec3 p)
 {
     double margin = ((const Cylinder *)shape)->open ? MARGIN : -MARGIN;
@@ -103,5 +109,5 @@ static Bounds extent(const void *params, const Affine *place)
 
 const ShapeOps shape_cylinder = {
     .keyword = "cylinder", .params_size = sizeof(Params), .flags = SHAPE_HAS_OPEN | SHAPE_CONVEX, .parse = parse,
-    .compile = compile, .hits = hits, .inside = inside, .surface = surface, .extent = extent,
+    .compile = compile, .hits = hits, .reach = reach, .inside = inside, .surface = surface, .extent = extent,
 };

@@ -40,6 +40,12 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     hit_add(sink, middle + half, 0);
 }
 
+static double reach(const void *shape, Vec3 n)
+{
+    const Sphere *s = shape;
+    return dot(n, s->centre) + s->radius * length(n);
+}
+
 static bool inside(const void *shape, Vec3 p)
 {
     const Sphere *s = shape;
@@ -70,5 +76,5 @@ static Bounds extent(const void *params, const Affine *place)
 
 const ShapeOps shape_sphere = {
     .keyword = "sphere", .params_size = sizeof(Params), .flags = SHAPE_HAS_UV | SHAPE_CONVEX, .parse = parse, .compile = compile,
-    .hits = hits, .inside = inside, .surface = surface, .extent = extent,
+    .hits = hits, .reach = reach, .inside = inside, .surface = surface, .extent = extent,
 };

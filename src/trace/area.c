@@ -73,35 +73,52 @@ static double reach_of(const LightSource *def, int size)
     return size > 1 && def->jitter ? reach + 0.5 / (size - 1) : reach;
 }
 
-static Bounds bounds_of_samples(const Area *a, double margin)
+static Window window_of_samples(const Area *a)
 {
     const LightSource *def = a->light->def;
-    double r1 = reach_of(def, def->size1), r2 = reach_of(def, def->size2);
-    Vec3 u = scaled(a->axes.axis1, r1), v = scaled(a->axes.axis2, r2);
+    return (Window){ a->light->location, scaled(a->axes.axis1, reach_of(def, def->size1)),
+                     scaled(a->axes.axis2, reach_of(def, def->size2)) };
+}
+
+static Bounds bounds_of_window(const Window *window, double margin)
+{
+    Vec3 u = window->half1, v = window->half2;
     Vec3 half = vec3(fabs(u.x) + fabs(v.x) + margin, fabs(u.y) + fabs(v.y) + margin, fabs(u.z) + fabs(v.z) + margin);
-    return (Bounds){ sub(a->light->location, half), add(a->light->location, half) };
+    return (Bounds){ sub(window->middle, half), add(window->middle, half) };
 }
 
 /* The least slope of the rays to the samples over the surface for their start not to be in doubt. */
 static const double CLEARLY_ABOVE = 0x1p-20;
 
-/* Fails if the rays to the samples do not all start on the same side of the surface, or do not lead to them. */
-static bool look_between(const Area *a, Shaft *out)
+typedef enum Between { BETWEEN_UNKNOWN, BETWEEN_SOME, BETWEEN_CLEAR, BETWEEN_DARK } Between;
+
+/* Unknown if the rays to the samples do not all start on the same side of the surface, or do not lead to them. */
+static Between look_between(const Area *a, Shaft *shaft)
 {
     const Spot *spot = a->spot;
     const Light *light = a->light;
+    const World *w = spot->t->world;
     if (light->def->parallel || light->def->kind == LIGHT_CYLINDER || light->projected_through != 0)
-        return false;
+        return BETWEEN_UNKNOWN;
     const Surface *surface = spot->surface;
-    Bounds to = bounds_of_samples(a, 8 * (surface != NULL ? surface->error : 0));
+    Window window = window_of_samples(a);
+    Bounds to = bounds_of_window(&window, 8 * (surface != NULL ? surface->error : 0));
+    Vec3 o = spot->p, up = vec3(0, 0, 0);
     if (surface != NULL) {
         Vec3 g = surface->geometric, half = sub(to.hi, light->location), v = sub(light->location, spot->p);
-        double doubt = fabs(g.x) * half.x + fabs(g.y) * half.y + fabs(g.z) * half.z + CLEARLY_ABOVE * max_abs(v);
-        if (fabs(dot(g, v)) <= doubt)
-            return false;
+        double slope = dot(g, v), doubt = fabs(g.x) * half.x + fabs(g.y) * half.y + fabs(g.z) * half.z;
+        if (fabs(slope) <= doubt + CLEARLY_ABOVE * max_abs(v))
+            return BETWEEN_UNKNOWN;
+        o = surface_offset(surface, a->l);
+        up = slope > 0 ? g : negated(g);
     }
-    world_shaft(spot->t->world, surface != NULL ? surface_offset(surface, a->l) : spot->p, to, PRIM_NO_SHADOW, out);
-    return !out->crowded;
+    world_shaft(w, o, to, PRIM_NO_SHADOW, shaft);
+    if (shaft->crowded)
+        return BETWEEN_UNKNOWN;
+    shaft_narrow(w, o, &window, up, shaft);
+    if (shaft->n == 0 && !shadow_dims(spot->t, light))
+        return BETWEEN_CLEAR;
+    return shaft_is_closed(w, o, &window, shaft) ? BETWEEN_DARK : BETWEEN_SOME;
 }
 
 /* ---- samples ---- */
@@ -176,10 +193,11 @@ Rgb area_visible(const Spot *spot, uint32_t light, Rgb colour)
     a.l = normalized(sub(source->location, spot->p));
     a.axes = area_axes(source, a.l);
     Shaft among;
-    if (look_between(&a, &among)) {
-        a.among = &among;
-        if (among.n == 0 && !shadow_dims(spot->t, source) && colour.r >= 0)
-            return mean_of_equals(&a, colour);
-    }
+    Between between = look_between(&a, &among);
+    if (colour.r >= 0 && between == BETWEEN_CLEAR)
+        return mean_of_equals(&a, colour);
+    if (between == BETWEEN_DARK)
+        return mean_of_equals(&a, rgb_grey(0));
+    a.among = between != BETWEEN_UNKNOWN ? &among : NULL;
     return mean_of_all(&a);
 }

@@ -64,6 +64,142 @@ void world_shaft(const World *w, Vec3 o, Bounds to, uint32_t skip, Shaft *out)
         w->accel_ops->between(w->accel, o, to, keep_item, &g);
 }
 
+/* ---- narrowed to a window ---- */
+
+/* How far a prim must stay behind the plane through a surface: beyond all rounding, within the error of surfaces. */
+static const double BEHIND = 0x1p-44;
+
+/* The rays lie on its inner side: n . (x - o) <= 0. */
+typedef struct Side {
+    Vec3 n;
+    double clear;                              /* relative to all distances */
+} Side;
+
+enum { N_SIDES = 5 };
+
+static void window_corners(const Window *to, Vec3 o, Vec3 corner[4])
+{
+    Vec3 m = sub(to->middle, o), sum = add(to->half1, to->half2), difference = sub(to->half1, to->half2);
+    corner[0] = sub(m, sum);
+    corner[1] = add(m, difference);
+    corner[2] = add(m, sum);
+    corner[3] = sub(m, difference);
+}
+
+static void window_sides(const Window *to, Vec3 o, Vec3 up, Side side[N_SIDES])
+{
+    Vec3 c[4];
+    window_corners(to, o, c);
+    for (int i = 0; i < 4; i++) {
+        Vec3 n = cross(c[i], c[(i + 1) % 4]);
+        side[i] = (Side){ dot(n, c[(i + 2) % 4]) > 0 ? negated(n) : n, ASIDE };
+    }
+    side[4] = (Side){ negated(up), BEHIND };
+}
+
+/* Not below the least n . x of the prim; for unbounded ones perhaps NaN. */
+static double least_along(const World *w, uint32_t index, Vec3 n, double *size)
+{
+    const Prim *prim = &w->prim[index];
+    Bounds box = w->box[index];
+    double least = n.x * (n.x > 0 ? box.lo.x : box.hi.x) + n.y * (n.y > 0 ? box.lo.y : box.hi.y) +
+                   n.z * (n.z > 0 ? box.lo.z : box.hi.z);
+    *size = length(n) * (max_abs(box.lo) + max_abs(box.hi));
+    if (prim->ops->reach == NULL)
+        return least;
+    const Affine *place = prim->place;
+    double offset = place->identity ? 0 : dot(n, vec3(place->m[3][0], place->m[3][1], place->m[3][2]));
+    double own = offset - prim->ops->reach(prim->data, negated(affine_normal_back(place, n)));
+    *size += fabs(offset);
+    return own > least ? own : least;
+}
+
+static bool stays_beside(const World *w, uint32_t prim, Vec3 o, const Side *side)
+{
+    double size, least = least_along(w, prim, side->n, &size);
+    return least - dot(side->n, o) > side->clear * (size + length(side->n) * max_abs(o));
+}
+
+void shaft_narrow(const World *w, Vec3 o, const Window *to, Vec3 up, Shaft *shaft)
+{
+    Side side[N_SIDES];
+    uint32_t n = 0;
+    window_sides(to, o, up, side);
+    for (uint32_t i = 0; i < shaft->n; i++) {
+        int k = N_SIDES - 1;                   /* the surface that the rays leave is most often what is in question */
+        while (k >= 0 && !stays_beside(w, shaft->prim[i], o, &side[k]))
+            k--;
+        if (k < 0)
+            shaft->prim[n++] = shaft->prim[i];
+    }
+    shaft->n = n;
+}
+
+/* ---- closed by one prim ---- */
+
+/* By how much a window is widened, as a share of its distance, so that rays to the window itself are clear of all edges; and
+ * by how much a hit must keep away from both ends. */
+static const double WIDER = 0x1p-12, AWAY = 0x1p-10;
+
+/* The least sine under which a window may be seen, and between its sides. */
+static const double OBLIQUE = 0x1p-6;
+
+/* False if it is too thin for widening to help. */
+static bool window_widened(const Window *to, Vec3 o, Window *out)
+{
+    Vec3 m = sub(to->middle, o), across = cross(to->half1, to->half2);
+    double d = length(m), size1 = length(to->half1), size2 = length(to->half2), area = length(across);
+    if (!(area > OBLIQUE * size1 * size2) || !(fabs(dot(across, m)) > OBLIQUE * area * d) || max_abs(o) > 0x1p10 * d)
+        return false;
+    *out = (Window){ to->middle, scaled(to->half1, 1 + WIDER * d / size1), scaled(to->half2, 1 + WIDER * d / size2) };
+    return true;
+}
+
+/* A ray from o into the box comes to its surface, unless both its ends may be within. */
+static bool may_hold(Bounds box, Vec3 p, double margin)
+{
+    return bounds_contain(bounds_grown(box, margin), p);
+}
+
+static bool may_overlap(Bounds a, Bounds b, double margin)
+{
+    return a.lo.x <= b.hi.x + margin && b.lo.x <= a.hi.x + margin && a.lo.y <= b.hi.y + margin && b.lo.y <= a.hi.y + margin &&
+           a.lo.z <= b.hi.z + margin && b.lo.z <= a.hi.z + margin;
+}
+
+/* What a convex body hides from o is convex, too: if it hides the corners of a window, it hides all of it. */
+static bool closes(const World *w, uint32_t index, Vec3 o, const Vec3 corner[4])
+{
+    static const uint32_t needed = PRIM_OPAQUE | PRIM_CONVEX;
+    const Prim *prim = &w->prim[index];
+    if ((prim->flags & needed) != needed || prim->csg != 0)
+        return false;
+    for (int i = 0; i < 4; i++) {
+        Ray ray = { o, corner[i], AWAY, 1 - AWAY };
+        if (!prim_meets(w, index, &ray, 0))
+            return false;
+    }
+    Vec3 end[4] = { add(o, corner[0]), add(o, corner[1]), add(o, corner[2]), add(o, corner[3]) };
+    double margin = WIDER * max_abs(corner[0]);
+    return prim->ops->half_space != NULL || !may_hold(w->box[index], o, margin) ||
+           !may_overlap(w->box[index], bounds_of_points(end, 4), margin);
+}
+
+bool shaft_is_closed(const World *w, Vec3 o, const Window *to, const Shaft *shaft)
+{
+    Window wider;
+    if (shaft->n == 0 || !window_widened(to, o, &wider))
+        return false;
+    Vec3 corner[4];
+    window_corners(&wider, o, corner);
+    for (uint32_t i = 0; i < shaft->n; i++)
+        if (closes(w, shaft->prim[i], o, corner))
+            return true;
+    return false;
+}
+
+/* ---- bodies ---- */
+
 /* Nothing changes on the way if no surface lies in between. Bodies that are set operations of their own may be clipped: inside
  * beyond their surface. */
 bool world_same_bodies(const World *w, Vec3 o, Bounds box)

@@ -15,6 +15,16 @@ typedef struct Shaft {
 /* Holds for rays whose range of t is that from o to a point of `to`, or shorter. */
 void world_shaft(const World *w, Vec3 o, Bounds to, uint32_t skip, Shaft *out);
 
+/* A parallelogram, middle +- half1 +- half2, in which rays of a shaft end. */
+typedef struct Window { Vec3 middle, half1, half2; } Window;
+
+/* Leaves out what no ray from o to a point of the window can meet. up: all rays lead clearly to its side of the plane through o,
+ * which may touch a prim to within the error of a surface; zero: nothing is known. */
+void shaft_narrow(const World *w, Vec3 o, const Window *to, Vec3 up, Shaft *shaft);
+
+/* Does one opaque prim stand in the way of every ray from o to a point of the window? False if that is not easily said. */
+bool shaft_is_closed(const World *w, Vec3 o, const Window *to, const Shaft *shaft);
+
 /* As world_each_hit, for a ray within a shaft that is not crowded. */
 bool shaft_each_hit(const World *w, const Shaft *shaft, const Ray *ray, HitVisit *visit, void *user);
 

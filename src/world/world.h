@@ -30,7 +30,8 @@ enum {                                         /* Prim.flags */
     PRIM_NO_IMAGE_LATER = 128,                 /* POV: no_image on a child of an unsplit union: the camera's own rays see it */
     PRIM_OPAQUE = 256,                         /* all textures it may show, interior_texture too, are opaque: shadow rays may stop */
     PRIM_BOXED = 512,                          /* unbounded, but for a bound: hits outside its box do not count */
-    PRIM_BOUNDED = 1024                        /* below a BOUND node */
+    PRIM_BOUNDED = 1024,                       /* below a BOUND node */
+    PRIM_CONVEX = 2048                         /* and closed: a line through its inside meets its surface on both sides */
 };
 
 typedef struct Prim {
