@@ -91,7 +91,7 @@ void *arena_alloc(Arena *a, size_t bytes)
 {
     if (bytes > SIZE_MAX / 4 || (a->limit && a->used + bytes > a->limit))
         out_of_memory(a);
-    size_t align = bytes >= LARGE_ALIGN ? LARGE_ALIGN : SMALL_ALIGN;
+    size_t align = bytes % LARGE_ALIGN == 0 ? LARGE_ALIGN : SMALL_ALIGN;
     if (!a->block)
         add_block(a, bytes);
     char *p = align_up(a->next, align);

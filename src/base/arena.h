@@ -29,7 +29,7 @@ typedef struct ArenaMark {
 void arena_init(Arena *a);
 void arena_free(Arena *a);
 
-/* Zeroed, aligned to 64 bytes when `bytes` is 64 or more, to 16 otherwise. Never NULL. */
+/* Zeroed, aligned to 64 bytes when `bytes` is a multiple of it (whole lines of the cache), to 16 otherwise. Never NULL. */
 void *arena_alloc(Arena *a, size_t bytes);
 
 /* A copy of `bytes` bytes at `from`. */

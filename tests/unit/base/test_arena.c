@@ -13,9 +13,9 @@ static void memory_is_zeroed_and_aligned(void **state)
     (void)state;
     Arena a;
     arena_init(&a);
-    for (size_t n = 1; n < 100000; n = n * 3 + 1) {
+    for (size_t n = 1; n < 100000; n = n % 128 == 0 ? n * 3 + 1 : (n * 3 / 64 + 1) * 64) {
         unsigned char *p = arena_alloc(&a, n);
-        assert_int_equal((uintptr_t)p % (n >= 64 ? 64 : 16), 0);
+        assert_int_equal((uintptr_t)p % (n % 64 == 0 ? 64 : 16), 0);
         for (size_t i = 0; i < n; i++) {
             assert_int_equal(p[i], 0);
             p[i] = 0xff;
