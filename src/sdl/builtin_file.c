@@ -8,6 +8,26 @@ const char *const FILE_INCLUDE_EXTENSIONS[] = { ".inc", ".INC", NULL };
 
 /* -- The library search -- */
 
+/* A text found before by the same name. */
+static FileText *searched(Parser *p, Str name, const char *const *extensions)
+{
+    for (uint32_t i = 0; i < p->searched.n; i++) {
+        const FileSearch *s = &p->searched.data[i];
+        if (s->extensions == extensions && str_equal(s->name, name))
+            return &p->file.data[s->file];
+    }
+    return NULL;
+}
+
+static Str text_of(Parser *p, FileText *file, uint16_t *source)
+{
+    if (source && file->source == NO_SOURCE)
+        file->source = diag_source(p->diag, file->path, file->text);
+    if (source)
+        *source = file->source;
+    return file->text;
+}
+
 typedef struct Search {
     Parser *p;
     bool read;
@@ -107,8 +127,12 @@ static bool search_kindly(Search *s, Str name, const char *const *extensions, Lo
 Str file_find(Parser *p, Str name, const char *const *extensions, Loc loc, bool report, uint16_t *source, bool read)
 {
     Search s = { .p = p, .read = read, .worst = FILE_MISSING };
+    FileText *again = read ? searched(p, name, extensions) : NULL;
+    if (again)
+        return text_of(p, again, source);
     ArenaMark mark = arena_mark(&p->temp);
-    bool found = name.n && (search(&s, name, extensions, visit_exact) || (report && search_kindly(&s, name, extensions, loc)));
+    bool exact = name.n && search(&s, name, extensions, visit_exact);
+    bool found = exact || (name.n && report && search_kindly(&s, name, extensions, loc));
     if (!found && !report)
         return (Str){ 0 };
     if (!found && s.worst != FILE_MISSING)
@@ -123,12 +147,9 @@ Str file_find(Parser *p, Str name, const char *const *extensions, Loc loc, bool 
     if (!read)
         return s.found;
     FileText *file = cached(p, s.found);
-    if (source) {
-        if (file->source == NO_SOURCE)
-            file->source = diag_source(p->diag, file->path, file->text);
-        *source = file->source;
-    }
-    return s.text;
+    if (exact)
+        array_push(p->arena, &p->searched, (FileSearch){ str_copy(p->arena, name), extensions, (uint32_t)(file - p->file.data) });
+    return text_of(p, file, source);
 }
 
 /* -- Handles -- */
@@ -173,6 +194,7 @@ void file_fopen(Parser *p)
             fail_io(p->diag, name.loc, "Cannot open file '%s' for output: %s.", c_text(p, path), file_result_text(result));
         h->next = p->handles;
         p->handles = h;
+        p->searched.n = 0;
     }
     if (!v)
         v = symbol_declare(p, name.sym, false, 0)->value;

@@ -75,6 +75,8 @@ bool parse_at_float(Parser *p);                /* could a float begin here? (a n
 Str parse_read_file(Parser *p, Str name, Loc where);
 /* The same, also with one of the extensions (ended by NULL) appended; false if there is none. */
 bool parse_find_file(Parser *p, Str name, const char *const *extensions, Loc where, Str *out);
+/* A pointer of that key's own for the rest of the parse, NULL at first: what was made of a file need not be made twice. */
+void **parse_kept(Parser *p, const void *key, uint32_t variant);
 bool parse_is_strict(const Parser *p);         /* nothing is mended: as the reference or not at all */
 /* At what the reference refuses though it has one meaning only: an error if strict, else a warning, once. */
 void parse_mend(Parser *p, const char *what);

@@ -68,3 +68,12 @@ void parser_free(Parser *p)
     diag_chain(p->diag, NULL, NULL);
     arena_free(&p->temp);
 }
+
+void **parse_kept(Parser *p, const void *key, uint32_t variant)
+{
+    for (uint32_t i = 0; i < p->kept.n; i++)
+        if (p->kept.data[i].key == key && p->kept.data[i].variant == variant)
+            return &p->kept.data[i].pointer;
+    array_push(p->arena, &p->kept, (KeptPointer){ .key = key, .variant = variant });
+    return &p->kept.data[p->kept.n - 1].pointer;
+}

@@ -63,7 +63,11 @@ typedef struct Capture {                       /* the tokens from an opening dir
 } Capture;
 
 enum { NO_SOURCE = UINT16_MAX };
+/* A name that has been searched for already, and the number of the file it meant; forgotten when the scene writes files. */
+typedef struct FileSearch { Str name; const char *const *extensions; uint32_t file; } FileSearch;
 typedef struct FileText { Str path; Str text; uint16_t source; } FileText;   /* source: NO_SOURCE until it is read as one */
+
+typedef struct KeptPointer { const void *key; uint32_t variant; void *pointer; } KeptPointer;          /* parse_kept() */
 
 typedef struct PoolItem PoolItem;
 enum { POOL_CLASSES = 40 };
@@ -105,6 +109,8 @@ struct Parser {
     uint32_t *capture_slot;                    /* hash table of indices + 1 */
     uint32_t capture_mask;
     ARRAY(FileText) file;
+    ARRAY(FileSearch) searched;
+    ARRAY(KeptPointer) kept;
     FileAccess access;
     Str scene_folder;
     FileHandle *handles;

@@ -145,8 +145,13 @@ static Ttf parse_font(Parser *p)
     }
     Ttf t;
     const char *error;
-    if (!ttf_open(&t, parse_arena(p), bytes, index, parse_charset_is_ascii(p) ? 0 : TTF_UNICODE_FIRST, &error))
+    unsigned flags = parse_charset_is_ascii(p) ? 0 : TTF_UNICODE_FIRST;
+    void **open = parse_kept(p, bytes.data, index << 1 | flags);
+    if (*open != NULL)
+        return *(const Ttf *)*open;
+    if (!ttf_open(&t, parse_arena(p), bytes, index, flags, &error))
         parse_fail(p, "the font '%.*s' cannot be used: %s", STR_ARGS(name), error);
+    *open = arena_copy(parse_arena(p), &t, sizeof t);
     return t;
 }
 
