@@ -124,27 +124,27 @@ __attribute__((constructor)) static void make_tables(void)
 
 double noise_value(int generator, Vec3 p)
 {
-    return kernel->value(generator, p);
+    return kernel->value(generator, &p);
 }
 
 Vec3 noise_vector(Vec3 p)
 {
-    return kernel->vector(p);
+    return kernel->vector(&p);
 }
 
 void noise_octaves(int generator, Vec3 p, double first, double step, int n, double *out)
 {
-    kernel->octaves(generator, p, first, step, n, out);
+    kernel->octaves(generator, &p, first, step, n, out);
 }
 
 double noise_turbulence(int generator, Vec3 p, int octaves, double omega, double lambda)
 {
-    return kernel->turbulence(generator, p, octaves, omega, lambda);
+    return kernel->turbulence(generator, &p, octaves, omega, lambda);
 }
 
 Vec3 noise_vector_turbulence(Vec3 p, int octaves, double omega, double lambda)
 {
-    return kernel->vector_turbulence(p, octaves, omega, lambda);
+    return kernel->vector_turbulence(&p, octaves, omega, lambda);
 }
 
 unsigned noise_cell_row(long long a, long long b)

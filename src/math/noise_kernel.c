@@ -2,13 +2,35 @@
  *
  * Each of the eight corners of a lattice cell gives w (R0/2 + R1 dx + R2 dy + R3 dz): four neighbouring numbers of the table
  * times (1/2, dx, dy, dz). Those four products are the lanes of a vector and the sum over corners runs lane by lane, so
- * that a corner costs one load and three operations. The octaves of a turbulence do not depend on each other and
- * overlap in the processor by themselves. */
+ * that a corner costs one load and three operations.
+ *
+ * The octaves of a turbulence do not depend on each other, but one octave alone fills the processor's window. So first all
+ * points find their cells (Spot), then all sums are made: each of the two steps is short enough for several to overlap. */
 #include "base/cpu.h"
 #include "math/noise_tables.h"
 
+#ifdef __AVX2__
+#include <immintrin.h>
+#endif
+
+enum { MAX_OCTAVES = 10 };
+
+typedef double Pair __attribute__((vector_size(16)));
 typedef double Quad __attribute__((vector_size(32)));
 typedef double QuadInMemory __attribute__((vector_size(32), aligned(8), may_alias));
+
+static inline Quad load(const double *from)
+{
+    return *(const QuadInMemory *)from;
+}
+
+/* ---- spots: where a point lies in the lattice ---- */
+
+typedef struct Spot {
+    Quad low;                                  /* 1/2 and the way from the low corner: x, y, z */
+    double weight[8];                          /* of the corners */
+    int cell[4];                               /* -, x, y, z: 0..4095 */
+} Spot;
 
 /* Beyond this no fraction is left in a double; the lattice index must fit an integer. */
 static const double FAR = 4e18;
@@ -23,65 +45,121 @@ static inline long long low_corner(double x)
     return (long long)(x - (x < 0 ? 1 - 1e-10 : 0));
 }
 
-static inline Quad load(const double *from)
+static inline void spot_set(Spot *spot, Vec3 p)
 {
-    return *(const QuadInMemory *)from;
+    long long mx = low_corner(p.x), my = low_corner(p.y), mz = low_corner(p.z);
+    double x = p.x - (double)mx, y = p.y - (double)my, z = p.z - (double)mz;
+    double sx = x * x * (3 - 2 * x), sy = y * y * (3 - 2 * y), sz = z * z * (3 - 2 * z);
+    double tx = 1 - sx, ty = 1 - sy, tz = 1 - sz;
+    double w00 = tx * ty, w10 = sx * ty, w01 = tx * sy, w11 = sx * sy;
+    *spot = (Spot){ .low = { 0.5, x, y, z },
+                    .weight = { w00 * tz, w10 * tz, w01 * tz, w11 * tz, w00 * sz, w10 * sz, w01 * sz, w11 * sz },
+                    .cell = { 0, (mx + 10000) & 4095, (my + 10000) & 4095, (mz + 10000) & 4095 } };
 }
 
-/* Finds the cell of p and does `each` with the corner's numbers in R (`table`) and w (1/2, dx, dy, dz) (`factors`). All in
- * named values: arrays would pass through memory and stall. */
-#define FOR_CORNERS(p, each)                                                                                           \
+#ifdef __AVX2__
+
+static inline Quad quad(double x)
+{
+    return (Quad){ x, x, x, x };
+}
+
+/* The same for p = (1/2, x, y, z). */
+static inline void spot_set_quad(Spot *spot, Quad p)
+{
+    typedef long long Lanes __attribute__((vector_size(32)));
+    Quad shifted = p - (Quad)((Lanes)quad(1 - 1e-10) & (Lanes)(p < 0));
+    __m128i corner = _mm256_cvttpd_epi32(shifted), cell = _mm_and_si128(_mm_add_epi32(corner, _mm_set1_epi32(10000)), _mm_set1_epi32(4095));
+    Quad low = p - _mm256_cvtepi32_pd(corner), s = low * low * (3 - 2 * low), t = 1 - s;
+    Quad x = _mm256_permute4x64_pd(_mm256_unpackhi_pd(t, s), 0x44), y = _mm256_permute4x64_pd(_mm256_unpacklo_pd(t, s), 0xfa);
+    spot->low = low;
+    *(QuadInMemory *)spot->weight = x * y * _mm256_permute4x64_pd(t, 0xff);
+    *(QuadInMemory *)(spot->weight + 4) = x * y * _mm256_permute4x64_pd(s, 0xff);
+    _mm_storeu_si128((__m128i_u *)(void *)spot->cell, cell);
+}
+
+/* Of p * first * step^k; false if one of them is too far for this. */
+static inline bool spots_set(Spot *spot, Vec3 p, double first, double step, int n)
+{
+    const double near = 2e9;                   /* cells are numbered in 32 bits */
+    /* Blended, as one load of y and z together would have to wait for two stores. */
+    Quad from = _mm256_blend_pd(_mm256_blend_pd(quad(0.5), quad(p.x), 2), _mm256_blend_pd(quad(p.y), quad(p.z), 8), 12);
+    Quad scale = { 1, first, first, first }, by = { 1, step, step, step }, last = scale;
+    for (int k = 0; k < n; k++, scale *= by) {
+        spot_set_quad(&spot[k], from * scale);
+        last = scale;
+    }
+    Quad farthest = from * quad(fabs(first) > fabs(last[1]) ? first : last[1]);
+    return _mm256_movemask_pd((Quad)((farthest < near) & (farthest > -near))) == 15;
+}
+
+#else
+
+static inline bool spots_set(Spot *spot, Vec3 p, double first, double step, int n)
+{
+    for (int k = 0; k < n; k++, first *= step) {
+        Vec3 q = scaled(p, first);
+        if (is_far(q))
+            return false;
+        spot_set(&spot[k], q);
+    }
+    return true;
+}
+
+#endif
+
+/* ---- sums over the corners ---- */
+
+/* Does `each` with the corner's numbers in R (`table`) and w (1/2, dx, dy, dz) (`factors`). */
+#define FOR_CORNERS(spot, each)                                                                                        \
     const uint16_t *h = noise_tables.hash;                                                                             \
     const uint8_t *last = noise_tables.corner;                                                                         \
-    long long mx = low_corner(p.x), my = low_corner(p.y), mz = low_corner(p.z);                                        \
-    double x = p.x - (double)mx, y = p.y - (double)my, z = p.z - (double)mz;                                           \
-    unsigned ix = (mx + 10000) & 4095, iy = (my + 10000) & 4095, iz = (mz + 10000) & 4095;                             \
-    double sx = x * x * (3 - 2 * x), sy = y * y * (3 - 2 * y), sz = z * z * (3 - 2 * z);                               \
-    double tx = 1 - sx, ty = 1 - sy, tz = 1 - sz;                                                                      \
+    unsigned ix = (unsigned)(spot)->cell[1], iy = (unsigned)(spot)->cell[2], iz = (unsigned)(spot)->cell[3];           \
     unsigned h0 = h[ix], h1 = h[ix + 1];                                                                               \
     unsigned h00 = h[h0 ^ iy], h10 = h[h1 ^ iy], h01 = h[h0 ^ (iy + 1)], h11 = h[h1 ^ (iy + 1)];                       \
-    double w00 = tx * ty, w10 = sx * ty, w01 = tx * sy, w11 = sx * sy;                                                 \
-    Quad low = { 0.5, x, y, z };                                                                                       \
-    CORNER(h00 ^ iz, 0, 0, 0, w00 * tz, each)                                                                          \
-    CORNER(h10 ^ iz, 1, 0, 0, w10 * tz, each)                                                                          \
-    CORNER(h01 ^ iz, 0, 1, 0, w01 * tz, each)                                                                          \
-    CORNER(h11 ^ iz, 1, 1, 0, w11 * tz, each)                                                                          \
-    CORNER(h00 ^ (iz + 1), 0, 0, 1, w00 * sz, each)                                                                    \
-    CORNER(h10 ^ (iz + 1), 1, 0, 1, w10 * sz, each)                                                                    \
-    CORNER(h01 ^ (iz + 1), 0, 1, 1, w01 * sz, each)                                                                    \
-    CORNER(h11 ^ (iz + 1), 1, 1, 1, w11 * sz, each)
+    CORNER(spot, h00 ^ iz, 0, 0, 0, each)                                                                              \
+    CORNER(spot, h10 ^ iz, 1, 0, 0, each)                                                                              \
+    CORNER(spot, h01 ^ iz, 0, 1, 0, each)                                                                              \
+    CORNER(spot, h11 ^ iz, 1, 1, 0, each)                                                                              \
+    CORNER(spot, h00 ^ (iz + 1), 0, 0, 1, each)                                                                        \
+    CORNER(spot, h10 ^ (iz + 1), 1, 0, 1, each)                                                                        \
+    CORNER(spot, h01 ^ (iz + 1), 0, 1, 1, each)                                                                        \
+    CORNER(spot, h11 ^ (iz + 1), 1, 1, 1, each)
 
-#define CORNER(hash, a, b, c, weight, each)                                                                            \
+#define CORNER(spot, hash, x, y, z, each)                                                                              \
     {                                                                                                                  \
         const double *table = noise_gradients + last[hash];                                                            \
-        Quad factors = (low - (Quad){ 0, a, b, c }) * (weight);                                                        \
+        Quad factors = ((spot)->low - (Quad){ 0, x, y, z }) * (spot)->weight[(x) + 2 * (y) + 4 * (z)];                 \
         each                                                                                                           \
     }
 
-static inline double sum_of(Quad v)
+/* The lanes of a sum are added crosswise, (0 + 2) + (1 + 3); this is the first half of that. */
+static inline Pair halves(Quad v)
 {
-    return (v[0] + v[2]) + (v[1] + v[3]);
+    return (Pair){ v[0], v[1] } + (Pair){ v[2], v[3] };
 }
 
-static inline double raw(Vec3 p)
+static inline Pair spot_noise(const Spot *spot)
 {
     Quad sum = { 0 };
-    FOR_CORNERS(p, sum += factors * load(table);)
-    return sum_of(sum);
+    FOR_CORNERS(spot, sum += factors * load(table);)
+    return halves(sum);
 }
 
-static inline Vec3 vector(Vec3 p)
+static inline Vec3 spot_vector(const Spot *spot)
 {
-    if (is_far(p))
-        return vec3(0, 0, 0);
     Quad dx = { 0 }, dy = { 0 }, dz = { 0 };
-    FOR_CORNERS(p, dx += factors * load(table); dy += factors * load(table + 4); dz += factors * load(table + 8);)
-    return vec3(sum_of(dx), sum_of(dy), sum_of(dz));
+    FOR_CORNERS(spot, dx += factors * load(table); dy += factors * load(table + 4); dz += factors * load(table + 8);)
+    Pair x = halves(dx), y = halves(dy), z = halves(dz);
+    return vec3(x[0] + x[1], y[0] + y[1], z[0] + z[1]);
 }
+
+/* ---- generator 3 ---- */
 
 static inline void axis3(double x, unsigned *low, unsigned *high, double *r)
 {
-    double t = x + 10000000.023157213, k = floor(t);
+    double t = x + 10000000.023157213;
+    double k = floor(t);
     long long i = (long long)k;
     *low = (unsigned)(i & 2047);
     *high = (unsigned)((i + 1) & 2047);
@@ -113,7 +191,8 @@ static inline double raw3(Vec3 p)
         Quad a = a00 + (a10 - a00) * sx, b = a01 + (a11 - a01) * sx;
         layer[k] = a + (b - a) * sy;
     }
-    return sum_of(layer[0] + (layer[1] - layer[0]) * sz);
+    Pair sum = halves(layer[0] + (layer[1] - layer[0]) * sz);
+    return sum[0] + sum[1];
 }
 
 /* Written so that it becomes two instructions without a branch. */
@@ -123,43 +202,80 @@ static inline double clamp(double v)
     return v < 1 ? v : 1;
 }
 
-static inline double value(int generator, Vec3 p)
+/* ---- what others call ---- */
+
+/* Of generator 1 or 2. */
+static inline double value_of(int generator, Pair sum)
+{
+    double shift = generator == 2 ? 1.05242 : 0.5, stretch = generator == 2 ? 0.48985582 : 1;
+    return clamp((sum[0] + sum[1] + shift) * stretch);
+}
+
+static inline double value_at(int generator, Vec3 p)
 {
     if (is_far(p))
         return 0.5;
-    switch (generator) {
-    case 2: return clamp((raw(p) + 1.05242) * 0.48985582);
-    case 3: return clamp(0.5 * (1.59 * raw3(p) + 0.985));
-    default: return clamp(raw(p) + 0.5);
-    }
+    if (generator == 3)
+        return clamp(0.5 * (1.59 * raw3(p) + 0.985));
+    Spot spot;
+    spot_set(&spot, p);
+    return value_of(generator, spot_noise(&spot));
 }
 
-static void octaves(int generator, Vec3 p, double first, double step, int n, double *out)
+static double value(int generator, const Vec3 *p)
 {
-    for (int k = 0; k < n; k++, first *= step)
-        out[k] = value(generator, scaled(p, first));
+    return value_at(generator, *p);
+}
+
+static inline void octaves(int generator, const Vec3 *p, double first, double step, int n, double *out)
+{
+    Spot spot[MAX_OCTAVES];
+    Pair sum[MAX_OCTAVES];
+    if (generator == 3 || !spots_set(spot, *p, first, step, n)) {
+        for (int k = 0; k < n; k++, first *= step)
+            out[k] = value_at(generator, scaled(*p, first));
+        return;
+    }
+    for (int k = 0; k < n; k++)
+        sum[k] = spot_noise(&spot[k]);
+    for (int k = 0; k < n; k++)
+        out[k] = value_of(generator, sum[k]);
 }
 
 /* Generators 2 and 3 are stretched about the middle; only the first term is clamped. */
-static double turbulence(int generator, Vec3 p, int n, double omega, double lambda)
+static double turbulence(int generator, const Vec3 *p, int n, double omega, double lambda)
 {
+    double v[MAX_OCTAVES];
+    octaves(generator, p, 1, lambda, n, v);
     bool stretched = generator >= 2;
-    double first = value(generator, p);
-    double sum = stretched ? clamp(2 * first - 0.5) : first;
-    double weight = omega, l = lambda;
-    for (int k = 1; k < n; k++, weight *= omega, l *= lambda) {
-        double v = value(generator, scaled(p, l));
-        sum += weight * (stretched ? 2 * v - 0.5 : v);
-    }
+    double sum = stretched ? clamp(2 * v[0] - 0.5) : v[0], weight = omega;
+    for (int k = 1; k < n; k++, weight *= omega)
+        sum += weight * (stretched ? 2 * v[k] - 0.5 : v[k]);
     return sum;
 }
 
-static Vec3 vector_turbulence(Vec3 p, int n, double omega, double lambda)
+static inline Vec3 vector_at(Vec3 p)
 {
-    Vec3 sum = vector(p);
+    if (is_far(p))
+        return vec3(0, 0, 0);
+    Spot spot;
+    spot_set(&spot, p);
+    return spot_vector(&spot);
+}
+
+static Vec3 vector(const Vec3 *p)
+{
+    return vector_at(*p);
+}
+
+static Vec3 vector_turbulence(const Vec3 *p, int n, double omega, double lambda)
+{
+    Spot spot[MAX_OCTAVES];
+    bool near = spots_set(spot, *p, 1, lambda, n);
+    Vec3 sum = near ? spot_vector(&spot[0]) : vector_at(*p);
     double weight = omega, l = lambda;
     for (int k = 1; k < n; k++, weight *= omega, l *= lambda)
-        sum = add(sum, scaled(vector(scaled(p, l)), weight));
+        sum = add(sum, scaled(near ? spot_vector(&spot[k]) : vector_at(scaled(*p, l)), weight));
     return sum;
 }
 

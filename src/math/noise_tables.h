@@ -19,11 +19,11 @@ extern NoiseTables noise_tables;               /* written once, before main */
 extern const double noise_gradients[267];      /* R */
 
 typedef struct NoiseKernel {
-    double (*value)(int generator, Vec3 p);
-    Vec3 (*vector)(Vec3 p);
-    void (*octaves)(int generator, Vec3 p, double first, double step, int n, double *out);
-    double (*turbulence)(int generator, Vec3 p, int octaves, double omega, double lambda);
-    Vec3 (*vector_turbulence)(Vec3 p, int octaves, double omega, double lambda);
+    double (*value)(int generator, const Vec3 *p);
+    Vec3 (*vector)(const Vec3 *p);
+    void (*octaves)(int generator, const Vec3 *p, double first, double step, int n, double *out);
+    double (*turbulence)(int generator, const Vec3 *p, int octaves, double omega, double lambda);
+    Vec3 (*vector_turbulence)(const Vec3 *p, int octaves, double omega, double lambda);
 } NoiseKernel;
 
 /* One element each: a name that is an address fits CPU_TABLE. */
