@@ -11,9 +11,12 @@ typedef struct Tile {                          /* columns x0 <= x < x1, rows y0 
     uint32_t index;
 } Tile;
 
-typedef struct Antialias Antialias;            /* buffers of one thread */
+typedef struct Antialiasing Antialiasing;      /* shared by all threads */
+typedef struct Antialias Antialias;            /* buffers of one */
 
-Antialias *antialias_new(Arena *arena, const World *w, const RenderOptions *options);
+/* Tiles are numbered by rows of `across`. alike: may a tile take over colours that its neighbours have found? */
+Antialiasing *antialiasing_new(Arena *arena, const World *w, const RenderOptions *options, uint32_t across, uint32_t n_tiles, bool alike);
+Antialias *antialias_new(Arena *arena, Antialiasing *all);
 
 /* rgba: the whole picture. */
 void antialias_tile(Antialias *a, Sampler *s, const Tile *tile, float *rgba);

@@ -13,6 +13,7 @@ typedef struct Render {
     const RenderOptions *options;
     Arena *arena;                              /* guarded by lock */
     const Sampling *sampling;
+    Antialiasing *antialiasing;
     Radiosity *radiosity;                      /* NULL: none */
     int pass;                                  /* of radiosity; -1: the picture */
     double *wobble;                            /* of the places that passes look at */
@@ -95,7 +96,7 @@ static void work(void *user, int worker)
     Render *r = user;
     Sampler sampler;
     pthread_mutex_lock(&r->lock);
-    Antialias *antialias = r->pass < 0 ? antialias_new(r->arena, r->world, r->options) : NULL;
+    Antialias *antialias = r->pass < 0 ? antialias_new(r->arena, r->antialiasing) : NULL;
     sampler_init(&sampler, r->arena, r->sampling, r->radiosity);
     pthread_mutex_unlock(&r->lock);
     uint32_t index;
@@ -152,6 +153,7 @@ bool render(const World *w, const RenderOptions *options, float *rgba, RenderPro
     r.tile = arena_array(&arena, uint32_t, n);
     r.all = (int)n;
     r.radiosity = radiosity_new(&arena, w, options->quality, n);
+    r.antialiasing = antialiasing_new(&arena, w, options, (uint32_t)r.across, n, r.radiosity == NULL);
     pthread_mutex_init(&r.lock, NULL);
     if (r.radiosity != NULL)
         do_passes(&r, n);

@@ -45,6 +45,11 @@ void sampler_free(Sampler *s)
     tracer_free(s->tracer);
 }
 
+bool sampler_took_chances(const Sampler *s)
+{
+    return tracer_took_chances(s->tracer);
+}
+
 /* A ray in scene space. */
 static Colour shoot(Sampler *s, const CameraRay *ray, double reach)
 {

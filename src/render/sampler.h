@@ -31,6 +31,9 @@ Sampling *sampling_new(Arena *arena, const World *w, const RenderOptions *option
 void sampler_init(Sampler *s, Arena *arena, const Sampling *sampling, Radiosity *radiosity);
 void sampler_free(Sampler *s);
 
+/* Has the tile used chance that other tiles have not? */
+bool sampler_took_chances(const Sampler *s);
+
 /* Whole numbers are pixel centres. */
 Colour sampler_colour(Sampler *s, double x, double y);
 

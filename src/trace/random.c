@@ -42,6 +42,7 @@ void stream_fill(double table[STREAM_SIZE])
 void streams_start(Streams *s, const double *table, uint32_t tile)
 {
     s->table = table;
+    s->used = false;
     s->at = s->media_at = tile * 20021u % STREAM_SIZE;
     uint32_t h = tile * 0x9e3779b9u;           /* 0 stays 0 */
     h ^= h >> 16;

@@ -5,6 +5,7 @@
 #ifndef TRACE_RANDOM_H
 #define TRACE_RANDOM_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "math/vec.h"
@@ -26,12 +27,14 @@ typedef struct Streams {
     const double *table;                       /* of stream_fill */
     uint32_t at, media_at;                     /* last entries used */
     uint32_t grain;                            /* state of the generator behind crand */
+    bool used;                                 /* since the start */
 } Streams;
 
 void streams_start(Streams *s, const double *table, uint32_t tile);
 
 static inline double streams_uniform(Streams *s)       /* [0, 1) */
 {
+    s->used = true;
     s->at = (s->at + 1) % STREAM_SIZE;
     return s->table[s->at];
 }
@@ -43,12 +46,14 @@ static inline void streams_skip(Streams *s, uint32_t n)       /* as n of the abo
 
 static inline double streams_media(Streams *s)         /* [0, 1) */
 {
+    s->used = true;
     s->media_at = (s->media_at + 1) % STREAM_SIZE;
     return s->table[s->media_at];
 }
 
 static inline double streams_crand(Streams *s)         /* [0, 1] */
 {
+    s->used = true;
     s->grain = s->grain * 1812433253u + 12345u;
     return s->grain * (1.0 / 4294967295.0);
 }

@@ -218,3 +218,8 @@ void tracer_start_tile(Tracer *t, uint32_t tile)
 {
     streams_start(&t->chance, t->tracing->stream, tile);
 }
+
+bool tracer_took_chances(const Tracer *t)
+{
+    return t->chance.used;
+}

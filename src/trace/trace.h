@@ -28,6 +28,9 @@ void tracer_free(Tracer *t);
 /* A new stretch of chance; what follows depends on the tile alone. */
 void tracer_start_tile(Tracer *t, uint32_t tile);
 
+/* Has the tile used any? If not, its colours are those of any other tile. */
+bool tracer_took_chances(const Tracer *t);
+
 /* The bodies around a point in world space. */
 void tracer_interiors(const Tracer *t, Vec3 p, Interiors *out);
 

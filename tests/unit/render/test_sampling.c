@@ -176,6 +176,23 @@ static void a_region_is_cut_out(void **state)
     picture_free(&part);
 }
 
+/* The tile in the middle is given the colours along its edges by its neighbours; as the first of a region it has none. */
+static void tiles_share_their_edges_unseen(void **state)
+{
+    (void)state;
+    const char *const scene[] = { HEAD, "camera { location -5*z direction z } light_source { <3,4,-5> rgb 1 }",
+        "plane { z, 0 pigment { checker rgb <1,.5,.2> rgb .3 scale .17 rotate 20 } }", NULL };
+    WhitOptions o = { .width = 96, .height = 96, .threads = 1, .antialias = 1 };
+    Picture whole = picture_of(&o, scene);
+    o.start_column = o.start_row = 33;
+    o.end_column = o.end_row = 64;
+    Picture part = picture_of(&o, scene);
+    for (int y = 32; y < 64; y++)
+        assert_memory_equal(picture_pixel(&part, 32, y), picture_pixel(&whole, 32, y), 32 * 4 * sizeof(float));
+    picture_free(&whole);
+    picture_free(&part);
+}
+
 static bool stop_at_once(void *user, int done, int all)
 {
     (void)all;
@@ -204,6 +221,7 @@ int main(void)
         cmocka_unit_test(powers_of_two_scale_exactly),
         cmocka_unit_test(accelerators_do_not_matter),
         cmocka_unit_test(a_region_is_cut_out),
+        cmocka_unit_test(tiles_share_their_edges_unseen),
         cmocka_unit_test(progress_can_cancel),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
