@@ -22,7 +22,7 @@ static inline float rgb_max(Rgb c)              /* fmaxf would be a call */
     return most > c.r ? most : c.r;
 }
 static inline float rgb_max_abs(Rgb c) { return rgb_max((Rgb){ fabsf(c.r), fabsf(c.g), fabsf(c.b) }); }
-static inline bool rgb_is_zero(Rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
+static inline bool rgb_is_zero(Rgb c) { return fabsf(c.r) + fabsf(c.g) + fabsf(c.b) == 0; }        /* one test, not three */
 
 static inline Colour colour_add(Colour a, Colour b)
 {

@@ -221,10 +221,8 @@ static Vec3 frames_out(const TextureFrame *f, Vec3 n)
     return n;
 }
 
-Vec3 texture_layer_normal(const TextureLeaf *leaf, const Texture *layer, Vec3 n, TextureContext *at)
+Vec3 texture_layer_bumps(const TextureLeaf *leaf, const Texture *layer, Vec3 n, TextureContext *at)
 {
-    if (layer->normal == NULL || at->quality < 8)
-        return n;
     bool keep_length = layer->no_bump_scale || leaf->keep_length;
     Vec3 out = perturb(layer->normal, leaf->place, leaf->p, frames_in(leaf->frame, n), keep_length, at);
     at->normal = out;                          /* POV: what slope and aoi see is not yet carried out of the frames */

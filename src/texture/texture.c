@@ -123,9 +123,15 @@ void texture_resolve(const PlacedTexture *placed, Vec3 p, const TextureContext *
     resolve(&w, placed->texture, place, p, 1, false);
 }
 
-Colour texture_layer_colour(const TextureLeaf *leaf, const Texture *layer, const TextureContext *at, bool *found)
+bool texture_is_flat(const Texture *texture)
 {
-    return pigment_colour(layer->pigment, leaf->p, at, found);
+    for (const Texture *layer = texture; layer != NULL; layer = layer->below) {
+        if (layer->kind != TEXTURE_PLAIN || layer->normal != NULL || layer->finish->irid > 0)
+            return false;
+        if (layer->pigment->kind != PIGMENT_PLAIN || layer->pigment->quick != NULL)
+            return false;
+    }
+    return true;
 }
 
 bool texture_is_opaque(const Texture *texture)

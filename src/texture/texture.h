@@ -41,8 +41,21 @@ void texture_resolve(const PlacedTexture *placed, Vec3 p, const TextureContext *
 /* Of one layer of a leaf. The normal: n is the unit surface normal facing the ray; the result may point away from the viewer, and
  * is of unit length but for textures with no_bump_scale round the leaf; at->normal is set to what slope and aoi of the layer's pigment see, so ask for the normal first. A layer without a
  * normal, or quality below 8, gives n. */
-Vec3 texture_layer_normal(const TextureLeaf *leaf, const Texture *layer, Vec3 n, TextureContext *at);
-Colour texture_layer_colour(const TextureLeaf *leaf, const Texture *layer, const TextureContext *at, bool *found);
+Vec3 texture_layer_bumps(const TextureLeaf *leaf, const Texture *layer, Vec3 n, TextureContext *at);   /* of one that has a normal */
+static inline Vec3 texture_layer_normal(const TextureLeaf *leaf, const Texture *layer, Vec3 n, TextureContext *at)
+{
+    return layer->normal == NULL || at->quality < 8 ? n : texture_layer_bumps(leaf, layer, n, at);
+}
+
+static inline Colour texture_layer_colour(const TextureLeaf *leaf, const Texture *layer, const TextureContext *at, bool *found)
+{
+    const Pigment *pigment = layer->pigment;
+    bool plain = pigment->kind == PIGMENT_PLAIN && pigment->quick == NULL;
+    return plain ? pigment->colour : pigment_colour(pigment, leaf->p, at, found);
+}
+
+/* Is the texture the same everywhere, so that nobody need ask where? One leaf then says all of it. */
+bool texture_is_flat(const Texture *texture);
 
 /* Can light pass? (07, section 4). A texture is opaque if no way through its maps lets light through every layer. */
 bool pigment_is_opaque(const Pigment *pigment);

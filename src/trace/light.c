@@ -130,7 +130,7 @@ static inline Gloss gloss_of(const Shade *s, const Layer *layer)
     if (!g.any)
         return g;
     if (f->phong > 0)
-        g.mirrored = sub(s->path->ray.d, scaled(layer->n, 2 * dot(s->path->ray.d, layer->n)));
+        g.mirrored = sub(s->path->ray.d, scaled(*layer->n, 2 * dot(s->path->ray.d, *layer->n)));
     if (f->specular > 0)
         g.sharpness = f->roughness != 0 ? 1 / (double)f->roughness : 0;
     return g;
@@ -164,8 +164,8 @@ static Rgb highlight(const Lit *lit, Vec3 l, Rgb sum)
     const Layer *layer = lit->layer;
     const Finish *f = layer->finish;
     double shine = (f->phong > 0 ? phong(f, &lit->gloss, l) : 0) +
-                   (f->specular > 0 ? specular(f, &lit->gloss, lit->s->path->ray.d, layer->n, l) : 0);
-    return shine > 0 ? rgb_add(sum, rgb_scaled(metallic_tint(f->metallic, layer->colour, dot(layer->n, l)), (float)shine)) : sum;
+                   (f->specular > 0 ? specular(f, &lit->gloss, lit->s->path->ray.d, *layer->n, l) : 0);
+    return shine > 0 ? rgb_add(sum, rgb_scaled(metallic_tint(f->metallic, layer->colour, dot(*layer->n, l)), (float)shine)) : sum;
 }
 
 /* The factor on light from l; `grain` is taken off the brightness. */
@@ -176,7 +176,7 @@ static inline Rgb answer(const Lit *lit, unsigned lamp, Vec3 l, bool behind, dou
     Rgb sum = rgb_grey(0);
     double k = diffuse_strength(layer, behind);
     if (k > 0) {                               /* opacity may be negative: a colour with filter + transmit above 1 */
-        double cosine = fabs(dot(layer->n, l));
+        double cosine = fabs(dot(*layer->n, l));
         double intensity = f->brilliance == 1 ? cosine : pow(cosine, (double)f->brilliance);
         sum = rgb_scaled(layer->colour, (float)(intensity * k * layer->opacity - grain));
     }
@@ -185,7 +185,7 @@ static inline Rgb answer(const Lit *lit, unsigned lamp, Vec3 l, bool behind, dou
 
 static Rgb film(const Shade *s, const Layer *layer, Vec3 l)
 {
-    return finish_iridescence(layer->finish, s->at.point, fabs(dot(layer->n, l)), fabs(dot(layer->n, s->path->ray.d)),
+    return finish_iridescence(layer->finish, s->at.point, fabs(dot(*layer->n, l)), fabs(dot(*layer->n, s->path->ray.d)),
                               s->t->world->globals.irid_wavelength, &s->at);
 }
 
@@ -197,7 +197,7 @@ static inline Rgb iridescent(const Shade *s, const Layer *layer, Vec3 l, Rgb lig
 /* Does the light stand behind the surface? */
 static inline bool stands_behind(const Shade *s, const Layer *layer, Vec3 l)
 {
-    return !(s->material->flags & MATERIAL_DOUBLE_ILLUMINATE) && !(dot(layer->n, l) >= TINY);
+    return !(s->material->flags & MATERIAL_DOUBLE_ILLUMINATE) && !(dot(*layer->n, l) >= TINY);
 }
 
 /* ---- shadows ---- */

@@ -46,6 +46,8 @@ struct Tracing {
     const World *world;
     int quality;
     bool alpha, legacy;                        /* legacy: the scene speaks a language before 3.7 */
+    const TextureLeaf *flat;                   /* per texture of the World: all there is of a flat one; top NULL: of others */
+    Rgb ambient_light;                         /* none under radiosity, but in old scenes */
     Colour background;                         /* as the sky shows it */
     bool wants_uv;                             /* some texture or object maps by uv */
     double to_scene;                           /* 1 / world->unit */
@@ -128,7 +130,7 @@ typedef struct Shade {
 /* A finish at work: one layer of a leaf. */
 typedef struct Layer {
     const Finish *finish;
-    Vec3 n;                                    /* perturbed */
+    const Vec3 *n;                             /* perturbed */
     Rgb colour;
     double opacity;
 } Layer;
@@ -151,6 +153,12 @@ Colour trace_path(Tracer *t, const Path *path);
 Colour shade_hit(Tracer *t, const Path *path, const Hit *hit, int level);
 
 /* secondary.c: rays that leave a surface. */
+/* Would a ray of this weight be black at once? */
+static inline bool shade_gives_up(const Shade *s, double weight)
+{
+    return s->level >= s->path->ticket->max_level || weight < s->path->ticket->adc_bailout;
+}
+
 Vec3 reflected(Vec3 d, Vec3 n, Vec3 raw);      /* never below the surface that `raw` stands on */
 Colour shade_reflect(const Shade *s, const Polish *polish, double weight);     /* iridescent, not weighed */
 /* Adds what passes through the surface to sum; returns whether all of it is reflected. top: of the top layer. */

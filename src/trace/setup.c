@@ -167,6 +167,15 @@ static Colour background_of(const World *w, bool alpha, bool legacy)
     return (Colour){ b.r * (1 - b.t), b.g * (1 - b.t), b.b * (1 - b.t), 0, 0 };
 }
 
+static const TextureLeaf *flat_textures(Arena *arena, const World *w)
+{
+    TextureLeaf *flat = arena_array(arena, TextureLeaf, w->n_textures + 1);
+    for (uint32_t i = 1; i < w->n_textures; i++)
+        if (texture_is_flat(w->texture[i].texture))
+            flat[i] = (TextureLeaf){ .top = w->texture[i].texture, .weight = 1 };
+    return flat;
+}
+
 const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha)
 {
     Tracing *tracing = arena_new(arena, Tracing);
@@ -180,6 +189,8 @@ const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha
     tracing->max_level = w->globals.max_trace_level < 1 ? 1 : w->globals.max_trace_level;
     tracing->ticket = (Ticket){ .adc_bailout = w->globals.adc_bailout, .max_level = tracing->max_level };
     tracing->radiosity = w->globals.radiosity.on && quality >= 9;
+    tracing->ambient_light = tracing->radiosity && !tracing->legacy ? rgb_grey(0) : w->globals.ambient_light;
+    tracing->flat = flat_textures(arena, w);
     prepare_areas(arena, tracing, w);
     prepare_lamps(arena, tracing, w);
     tracing->has_media = quality >= 9 && has_media(w);

@@ -9,18 +9,21 @@ typedef struct Mirror {
     double weight;
 } Mirror;
 
+typedef struct Mirrors {
+    uint32_t n;
+    Rgb rest;                                  /* reflected by layers that found no room here */
+    Mirror mirror[MIRRORS_MAX];
+} Mirrors;
+
+typedef struct Around {                        /* light from all around, gathered once for all layers */
+    bool known;
+    Rgb front, back;
+} Around;
+
 typedef struct Stack {                         /* a leaf's layers, as far as they have been gone through */
-    Shade *s;
-    const TextureLeaf *leaf;
     Rgb sum, filter;
     double through;
     bool filtered;                             /* some layer had a colour */
-    bool gathered;                             /* light from all around, in front and behind: */
-    Rgb around, around_back;
-    Vec3 top;                                  /* normal of the top layer */
-    Mirror mirror[MIRRORS_MAX];
-    uint32_t n_mirrors;
-    Rgb reflected;                             /* by layers that found no room above */
 } Stack;
 
 /* ---- reflectivity ---- */
@@ -40,11 +43,17 @@ static Rgb mix(Rgb low, Rgb high, double x)
     return rgb_add(rgb_scaled(high, (float)x), rgb_scaled(low, (float)(1 - x)));
 }
 
-static Rgb reflectivity(const Shade *s, const Finish *f, Vec3 n, Rgb colour)
+static inline bool mirrors_light(const Finish *f)
 {
-    if (rgb_is_zero(f->reflection_max) && rgb_is_zero(f->reflection_min))
+    return !rgb_is_zero(f->reflection_max) || !rgb_is_zero(f->reflection_min);
+}
+
+static Rgb reflectivity(const Shade *s, const Layer *layer)
+{
+    const Finish *f = layer->finish;
+    if (!mirrors_light(f))
         return rgb_grey(0);
-    double cosine = -dot(s->path->ray.d, n);
+    double cosine = -dot(s->path->ray.d, *layer->n);
     Rgb r;
     if (f->reflection_fresnel) {
         double share = fresnel(interior_ratio(s->t->world, s->path->in, s->interior), cosine);
@@ -60,7 +69,7 @@ static Rgb reflectivity(const Shade *s, const Finish *f, Vec3 n, Rgb colour)
     }
     if (f->reflection_metallic != 0) {
         float m = f->reflection_metallic * (1 - (float)finish_metallic_fresnel(cosine));
-        r = rgb_mul(r, rgb_add(rgb_grey(1), rgb_scaled(rgb_sub(colour, rgb_grey(1)), m)));
+        r = rgb_mul(r, rgb_add(rgb_grey(1), rgb_scaled(rgb_sub(layer->colour, rgb_grey(1)), m)));
     }
     return r;
 }
@@ -80,15 +89,19 @@ static Rgb mirror_light(const Shade *s, const Mirror *m)
     return rgb_mul(seen, m->share);
 }
 
-static void remember_mirror(Stack *k, const Finish *f, Vec3 n, Rgb share)
+static void remember_mirror(const Shade *s, const Layer *layer, Rgb share, double through, Mirrors *mirrors)
 {
-    if (rgb_is_zero(share) || k->s->t->tracing->quality < 8)
+    if (rgb_is_zero(share) || s->t->tracing->quality < 8)
         return;
-    Mirror m = { { f, n }, share, k->s->path->weight * k->through * mirror_weight(f, share) };
-    if (k->n_mirrors < MIRRORS_MAX)
-        k->mirror[k->n_mirrors++] = m;
+    const Finish *f = layer->finish;
+    double weight = s->path->weight * through * mirror_weight(f, share);
+    if (shade_gives_up(s, weight) && f->reflection_exponent >= 0)
+        return;                                /* black, and a power of black */
+    Mirror m = { { f, *layer->n }, share, weight };
+    if (mirrors->n < MIRRORS_MAX)
+        mirrors->mirror[mirrors->n++] = m;
     else
-        k->reflected = rgb_add(k->reflected, mirror_light(k->s, &m));
+        mirrors->rest = rgb_add(mirrors->rest, mirror_light(s, &m));
 }
 
 /* ---- one layer ---- */
@@ -100,64 +113,83 @@ static float opacity(const Tracing *tracing, Colour c)
     return 1 - c.f - c.t;
 }
 
-static void darken_filter(Stack *k, const Finish *f, Colour c, Rgb share)
+/* Gathered for the first layer that shows enough of it. */
+static Rgb light_around(const Shade *s, const Layer *layer, Rgb filter, Around *around)
 {
-    k->filter = rgb_mul(k->filter, colour_transmittance(c));
-    k->filtered = true;
-    if (f->conserve_energy)
-        k->filter = rgb_mul(k->filter, rgb(fminf(1, 1 - share.r), fminf(1, 1 - share.g), fminf(1, 1 - share.b)));
-}
-
-/* Gathered once, for the first layer that shows enough of it. */
-static Rgb light_around(Stack *k, const Layer *layer)
-{
-    const Shade *s = k->s;
     const Finish *f = layer->finish;
     if (f->has_subsurface || !gather_here(s))
         return rgb_grey(0);
-    double seen = (double)rgb_greyness(rgb_mul(k->filter, layer->colour)) * layer->opacity *
+    double seen = (double)rgb_greyness(rgb_mul(filter, layer->colour)) * layer->opacity *
                   (double)f->diffuse;
-    if (!k->gathered && seen > s->path->ticket->adc_bailout) {
-        k->gathered = true;
+    if (!around->known && seen > s->path->ticket->adc_bailout) {
+        around->known = true;
+        around->front = around->back = rgb_grey(0);
         Vec3 raw = s->surface->normal;
-        k->around = gathered_light(s, layer->n, raw, s->path->weight * seen);
+        around->front = gathered_light(s, *layer->n, raw, s->path->weight * seen);
         if (f->diffuse_back != 0)
-            k->around_back = gathered_light(s, negated(layer->n), negated(raw), s->path->weight * seen);
+            around->back = gathered_light(s, negated(*layer->n), negated(raw), s->path->weight * seen);
     }
-    Rgb light = rgb_add(rgb_scaled(k->around, f->diffuse), rgb_scaled(k->around_back, f->diffuse_back));
+    if (!around->known)
+        return rgb_grey(0);
+    Rgb light = rgb_add(rgb_scaled(around->front, f->diffuse), rgb_scaled(around->back, f->diffuse_back));
     return rgb_scaled(rgb_mul(layer->colour, light), (float)layer->opacity);
 }
 
-static void shade_layer(Stack *k, const Texture *layer)
+/* What the layer sends towards the viewer, mirrors left aside. */
+static inline Rgb layer_light(Shade *s, const Layer *layer, Rgb filter, Around *around)
 {
-    Shade *s = k->s;
     const Tracing *tracing = s->t->tracing;
     const Finish *f = layer->finish;
-    Vec3 n = texture_layer_normal(k->leaf, layer, s->surface->normal, &s->at);
-    if (layer == k->leaf->top)
-        k->top = n;
-    bool found = true;
-    Colour c = texture_layer_colour(k->leaf, layer, &s->at, &found);
-    if (!found && tracing->quality > 1)        /* POV: low quality shows the white that stands for nothing */
+    Rgb glow = rgb_add(rgb_mul(f->ambient, tracing->ambient_light), f->emission);
+    Rgb light = rgb_scaled(rgb_mul(layer->colour, glow), (float)layer->opacity);
+    if (tracing->radiosity)
+        light = rgb_add(light, light_around(s, layer, filter, around));
+    return rgb_add(light, shade_lights(s, layer));
+}
+
+/* What is seen of a layer before any light falls on it. */
+typedef struct Look {
+    Layer layer;
+    Colour colour;
+    bool found;                                /* an image with `once` may have nothing here */
+    Vec3 bumps;                                /* the normal, if it is not the surface's */
+} Look;
+
+static inline void look_at(Shade *s, const TextureLeaf *leaf, const Texture *texture, Look *out)
+{
+    const Tracing *tracing = s->t->tracing;
+    out->layer.finish = texture->finish;
+    out->layer.n = &s->surface->normal;
+    if (texture->normal != NULL && tracing->quality >= 8) {
+        out->bumps = texture_layer_bumps(leaf, texture, s->surface->normal, &s->at);
+        out->layer.n = &out->bumps;
+    }
+    out->found = true;
+    Colour c = texture_layer_colour(leaf, texture, &s->at, &out->found);
+    if (!out->found && tracing->quality > 1)   /* POV: low quality shows the white that stands for nothing */
         c = (Colour){ 0, 0, 0, 0, 0 };
+    out->colour = c;
+    out->layer.colour = rgb_of(c);
+    out->layer.opacity = (double)opacity(tracing, c);
+}
+
+static void add_layer(Shade *s, const Look *look, Stack *k, Mirrors *mirrors, Around *around)
+{
+    Colour c = look->colour;
     Rgb share = rgb_grey(0);
-    if (tracing->quality <= 1) {
+    if (s->t->tracing->quality <= 1) {
         k->sum = rgb_of(c);
     } else {
-        share = reflectivity(s, f, n, rgb_of(c));
-        remember_mirror(k, f, n, share);
-        Layer at = { f, n, rgb_of(c), (double)opacity(tracing, c) };
-        Rgb glow = f->emission;                /* POV: with radiosity, ambient light is for old scenes only */
-        if (!tracing->radiosity || tracing->legacy)
-            glow = rgb_add(rgb_mul(f->ambient, s->t->world->globals.ambient_light), glow);
-        Rgb light = rgb_scaled(rgb_mul(rgb_of(c), glow), (float)at.opacity);
-        if (tracing->radiosity)
-            light = rgb_add(light, light_around(k, &at));
-        light = rgb_add(light, shade_lights(s, &at));
-        k->sum = rgb_add(k->sum, rgb_mul(light, k->filter));
+        share = reflectivity(s, &look->layer);
+        remember_mirror(s, &look->layer, share, k->through, mirrors);
+        k->sum = rgb_add(k->sum, rgb_mul(layer_light(s, &look->layer, k->filter, around), k->filter));
     }
-    if (found)
-        darken_filter(k, f, c, share);
+    if (look->found) {
+        k->filter = rgb_mul(k->filter, colour_transmittance(c));
+        k->filtered = true;
+        if (look->layer.finish->conserve_energy)
+            k->filter = rgb_mul(k->filter, rgb(fminf(1, 1 - share.r), fminf(1, 1 - share.g), fminf(1, 1 - share.b)));
+    }
     double grey = fabs((double)rgb_greyness(k->filter));
     k->through = grey < 1 ? grey : 1;
 }
@@ -167,45 +199,98 @@ static bool same_normal(Vec3 a, Vec3 b)
     return fabs(a.x - b.x) <= TINY && fabs(a.y - b.y) <= TINY && fabs(a.z - b.z) <= TINY;
 }
 
-static void shade_leaf(void *user, const TextureLeaf *leaf)
+/* The way of all leaves that mirror or let through, the top layer looked at. */
+static void shade_stack(Shade *s, const TextureLeaf *leaf, Look *look)
 {
-    Shade *s = user;
-    Stack k;                                   /* not cleared: the mirrors are large, and few */
-    k.s = s;
-    k.leaf = leaf;
-    k.sum = k.reflected = rgb_grey(0);
-    k.filter = rgb_grey(1);
-    k.through = 1;
-    k.filtered = false;
-    k.gathered = false;
-    k.around = k.around_back = rgb_grey(0);
-    k.top = s->surface->normal;
-    k.n_mirrors = 0;
-    for (const Texture *layer = leaf->top; layer != NULL && k.through > s->path->ticket->adc_bailout; layer = layer->below)
-        shade_layer(&k, layer);
-    Colour c = { k.sum.r + k.reflected.r, k.sum.g + k.reflected.g, k.sum.b + k.reflected.b, 0, 0 };
+    double bailout = s->path->ticket->adc_bailout;
+    Stack k = { .filter = rgb_grey(1), .through = 1 };
+    Vec3 top = *look->layer.n;
+    Around around;                             /* not cleared, as the mirrors: large, and few */
+    around.known = false;
+    Mirrors mirrors;
+    mirrors.n = 0;
+    mirrors.rest = rgb_grey(0);
+    for (const Texture *texture = leaf->top;;) {
+        add_layer(s, look, &k, &mirrors, &around);
+        texture = texture->below;
+        if (texture == NULL || !(k.through > bailout))
+            break;
+        look_at(s, leaf, texture, look);
+    }
+    Colour c = { k.sum.r + mirrors.rest.r, k.sum.g + mirrors.rest.g, k.sum.b + mirrors.rest.b, 0, 0 };
     bool total = false;
-    if (k.through > s->path->ticket->adc_bailout && s->t->tracing->quality >= 6)
-        total = shade_transmit(s, &(Polish){ leaf->top->finish, k.top }, k.filter, k.filtered, k.through, &c);
-    for (uint32_t i = 0; i < k.n_mirrors; i++) {
-        if (total && same_normal(k.mirror[i].polish.n, k.top))
+    if (k.through > bailout && s->t->tracing->quality >= 6)
+        total = shade_transmit(s, &(Polish){ leaf->top->finish, top }, k.filter, k.filtered, k.through, &c);
+    for (uint32_t i = 0; i < mirrors.n; i++) {
+        if (total && same_normal(mirrors.mirror[i].polish.n, top))
             continue;                          /* the same light came back already */
-        Rgb light = mirror_light(s, &k.mirror[i]);
+        Rgb light = mirror_light(s, &mirrors.mirror[i]);
         c = (Colour){ c.r + light.r, c.g + light.g, c.b + light.b, 0, c.t };
     }
     s->sum = colour_add(s->sum, colour_scaled(c, leaf->weight));
 }
 
+/* Does the top layer hide all below, and mirror nothing? */
+static inline bool is_matte(const Shade *s, const Look *look)
+{
+    return look->found && s->t->tracing->quality > 1 && s->path->ticket->adc_bailout >= 0 &&
+           rgb_is_zero(colour_transmittance(look->colour)) && !mirrors_light(look->layer.finish);
+}
+
+/* Most leaves are matte, and need no stack: their light is all. */
+static void shade_leaf(void *user, const TextureLeaf *leaf)
+{
+    Shade *s = user;
+    if (!(s->path->ticket->adc_bailout < 1))
+        return;                                /* not even the top layer counts */
+    Look look;
+    look_at(s, leaf, leaf->top, &look);
+    if (!is_matte(s, &look)) {
+        shade_stack(s, leaf, &look);
+        return;
+    }
+    Around around;
+    around.known = false;
+    Rgb light = rgb_scaled(layer_light(s, &look.layer, rgb_grey(1), &around), leaf->weight);
+    s->sum = (Colour){ s->sum.r + light.r, s->sum.g + light.g, s->sum.b + light.b, s->sum.f, s->sum.t };
+}
+
 /* ---- a hit ---- */
 
-static void shade_texture(Shade *s, uint32_t texture, float weight)
+/* Once per hit: what a normal does to it is seen by the textures that follow. */
+static void context_fill(Shade *s)
 {
-    if (texture == 0 || weight < (float)s->path->ticket->adc_bailout)
+    const Surface *surface = s->surface;
+    const Tracing *tracing = s->t->tracing;
+    const Globals *globals = &s->t->world->globals;
+    s->at = (TextureContext){ .point = scaled(surface->p, tracing->to_scene), .ray = s->path->ray.d, .normal = surface->normal,
+                              .uv = surface->uv, .hit = true, .quality = tracing->quality,
+                              .number_of_waves = globals->number_of_waves, .noise_generator = globals->noise_generator };
+}
+
+static void shade_texture(Shade *s, uint32_t texture)
+{
+    const TextureLeaf *flat = &s->t->tracing->flat[texture];
+    if (flat->top != NULL) {
+        shade_leaf(s, flat);
         return;
+    }
+    if (texture == 0)
+        return;
+    if (!s->at.hit)
+        context_fill(s);
     Vec3 p = s->material->flags & MATERIAL_UV ? vec3(s->surface->uv.u, s->surface->uv.v, 0) : s->at.point;
+    texture_resolve(&s->t->world->texture[texture], p, &s->at, shade_leaf, s);
+}
+
+/* One of several. */
+static void shade_share(Shade *s, uint32_t texture, float weight)
+{
+    if (weight < (float)s->path->ticket->adc_bailout)
+        return;
     Colour before = s->sum;
     s->sum = (Colour){ 0, 0, 0, 0, 0 };
-    texture_resolve(&s->t->world->texture[texture], p, &s->at, shade_leaf, s);
+    shade_texture(s, texture);
     s->sum = colour_add(before, weight == 1 ? s->sum : colour_scaled(s->sum, weight));
 }
 
@@ -215,7 +300,7 @@ Colour shade_hit(Tracer *t, const Path *path, const Hit *hit, int level)
     const Material *m = &w->material[w->prim[hit->prim].material];
     Surface surface;
     world_surface(w, &path->ray, hit, t->tracing->wants_uv, &surface);
-    Shade s;                                   /* not cleared: nothing of `light` is known */
+    Shade s;                                   /* not cleared: nothing of `light` is known, nor the context */
     s.t = t;
     s.path = path;
     s.surface = &surface;
@@ -223,18 +308,14 @@ Colour shade_hit(Tracer *t, const Path *path, const Hit *hit, int level)
     s.interior = m->interior;
     s.depth = hit->t;
     s.level = level;
+    s.at.hit = false;
     s.spot = (Spot){ t, surface.p, &surface, path->in, path->ticket->bounces > 0 };
     s.known = 0;
     s.sum = (Colour){ 0, 0, 0, 0, 0 };
-    s.at = (TextureContext){ .point = scaled(surface.p, t->tracing->to_scene), .ray = path->ray.d, .normal = surface.normal,
-                             .uv = surface.uv, .hit = true, .quality = t->tracing->quality,
-                             .number_of_waves = w->globals.number_of_waves, .noise_generator = w->globals.noise_generator };
-    uint32_t texture = m->texture;
-    if (surface.back && (m->flags & MATERIAL_HAS_INTERIOR_TEXTURE))
-        texture = m->interior_texture;
+    uint32_t texture = surface.back && (m->flags & MATERIAL_HAS_INTERIOR_TEXTURE) ? m->interior_texture : m->texture;
     if (surface.n_textures == 0)
-        shade_texture(&s, texture, 1);
+        shade_texture(&s, texture);
     for (uint32_t i = 0; i < surface.n_textures; i++)
-        shade_texture(&s, surface.texture[i].texture != 0 ? surface.texture[i].texture : texture, surface.texture[i].weight);
+        shade_share(&s, surface.texture[i].texture != 0 ? surface.texture[i].texture : texture, surface.texture[i].weight);
     return t->tracing->has_media ? media_bodies(t, path, m, hit->t, s.sum) : s.sum;
 }
