@@ -154,90 +154,102 @@ static double specular(const Finish *f, const Gloss *gloss, Vec3 d, Vec3 n, Vec3
     return size > 0 ? (double)f->specular * pow(k / size, gloss->sharpness) : 0;
 }
 
-static double diffuse_strength(const Layer *layer, bool behind)
+static inline double diffuse_strength(const Finish *f, bool behind)
 {
-    return layer->finish->has_subsurface ? 0 : (double)(behind ? layer->finish->diffuse_back : layer->finish->diffuse);
+    return f->has_subsurface ? 0 : (double)(behind ? f->diffuse_back : f->diffuse);
 }
 
-static Rgb highlight(const Lit *lit, Vec3 l, Rgb sum)
+static Rgb highlight(const Lit *lit, const Vec3 *l, Rgb sum)
 {
     const Layer *layer = lit->layer;
     const Finish *f = layer->finish;
-    double shine = (f->phong > 0 ? phong(f, &lit->gloss, l) : 0) +
-                   (f->specular > 0 ? specular(f, &lit->gloss, lit->s->path->ray.d, *layer->n, l) : 0);
-    return shine > 0 ? rgb_add(sum, rgb_scaled(metallic_tint(f->metallic, layer->colour, dot(*layer->n, l)), (float)shine)) : sum;
+    double shine = (f->phong > 0 ? phong(f, &lit->gloss, *l) : 0) +
+                   (f->specular > 0 ? specular(f, &lit->gloss, lit->s->path->ray.d, *layer->n, *l) : 0);
+    return shine > 0 ? rgb_add(sum, rgb_scaled(metallic_tint(f->metallic, layer->colour, dot(*layer->n, *l)), (float)shine)) : sum;
+}
+
+typedef struct Facing {                        /* how the surface stands to a light */
+    double cosine;
+    bool behind;                               /* the light is on the other side of it */
+} Facing;
+
+static inline Facing facing_of(const Lit *lit, const Vec3 *l)
+{
+    double cosine = dot(*lit->layer->n, *l);
+    return (Facing){ cosine, !(cosine >= TINY) && !(lit->s->material->flags & MATERIAL_DOUBLE_ILLUMINATE) };
+}
+
+static inline bool is_lit(const Lit *lit, Facing facing)
+{
+    return !facing.behind || lit->layer->finish->diffuse_back != 0;
 }
 
 /* The factor on light from l; `grain` is taken off the brightness. */
-static inline Rgb answer(const Lit *lit, unsigned lamp, Vec3 l, bool behind, double grain)
+static inline Rgb answer(const Lit *lit, unsigned lamp, const Vec3 *l, Facing facing, double grain)
 {
     const Layer *layer = lit->layer;
     const Finish *f = layer->finish;
     Rgb sum = rgb_grey(0);
-    double k = diffuse_strength(layer, behind);
+    double k = diffuse_strength(f, facing.behind);
     if (k > 0) {                               /* opacity may be negative: a colour with filter + transmit above 1 */
-        double cosine = fabs(dot(*layer->n, l));
+        double cosine = fabs(facing.cosine);
         double intensity = f->brilliance == 1 ? cosine : pow(cosine, (double)f->brilliance);
         sum = rgb_scaled(layer->colour, (float)(intensity * k * layer->opacity - grain));
     }
-    return lit->gloss.any && (lamp & LAMP_SHINES) && !behind ? highlight(lit, l, sum) : sum;
+    return lit->gloss.any && (lamp & LAMP_SHINES) && !facing.behind ? highlight(lit, l, sum) : sum;
 }
 
-static Rgb film(const Shade *s, const Layer *layer, Vec3 l)
+static Rgb film(const Lit *lit, const Vec3 *l)
 {
-    return finish_iridescence(layer->finish, s->at.point, fabs(dot(*layer->n, l)), fabs(dot(*layer->n, s->path->ray.d)),
+    const Shade *s = lit->s;
+    return finish_iridescence(lit->layer->finish, s->at.point, fabs(dot(*lit->layer->n, *l)), fabs(dot(*lit->layer->n, s->path->ray.d)),
                               s->t->world->globals.irid_wavelength, &s->at);
 }
 
-static inline Rgb iridescent(const Shade *s, const Layer *layer, Vec3 l, Rgb light)
+static inline Rgb iridescent(const Lit *lit, const Vec3 *l, Rgb light)
 {
-    return layer->finish->irid > 0 ? rgb_mul(light, film(s, layer, l)) : light;
-}
-
-/* Does the light stand behind the surface? */
-static inline bool stands_behind(const Shade *s, const Layer *layer, Vec3 l)
-{
-    return !(s->material->flags & MATERIAL_DOUBLE_ILLUMINATE) && !(dot(*layer->n, l) >= TINY);
+    return lit->layer->finish->irid > 0 ? rgb_mul(light, film(lit, l)) : light;
 }
 
 /* ---- shadows ---- */
 
-Rgb light_shadowed(const Spot *spot, uint32_t index, const Beam *beam)
+static inline Rgb after_shadows(const Spot *spot, uint32_t index, unsigned lamp, const Beam *beam)
 {
-    unsigned lamp = spot->t->tracing->lamp[index];
     if (!(lamp & LAMP_SHADED))
         return beam->colour;
     return (lamp & LAMP_AREA) && !spot->roughly ? area_visible(spot, index, beam->colour)
                                                 : shadow_walk(spot, index, beam, beam->colour, NULL);
 }
 
+Rgb light_shadowed(const Spot *spot, uint32_t index, const Beam *beam)
+{
+    return after_shadows(spot, index, spot->t->tracing->lamp[index], beam);
+}
+
 /* Shadows fall alike on all layers of a hit. */
 static inline Rgb shadowed(Shade *s, uint32_t index, unsigned lamp, const Beam *beam)
 {
     if (!(lamp & LAMP_REMEMBERED))
-        return light_shadowed(&s->spot, index, beam);
+        return after_shadows(&s->spot, index, lamp, beam);
     if (!(s->known >> index & 1)) {
         s->known |= 1u << index;
-        s->light[index] = light_shadowed(&s->spot, index, beam);
+        s->light[index] = after_shadows(&s->spot, index, lamp, beam);
     }
     return s->light[index];
 }
 
 /* ---- the loop ---- */
 
-static double grain_of(const Lit *lit, bool behind)
+static double grain_of(const Lit *lit, Facing facing)
 {
-    const Layer *layer = lit->layer;
-    if (!(layer->finish->crand > 0) || !(diffuse_strength(layer, behind) > 0))
-        return 0;
-    return (double)layer->finish->crand * streams_crand(&lit->s->t->chance);
+    const Finish *f = lit->layer->finish;
+    return f->crand > 0 && diffuse_strength(f, facing.behind) > 0 ? (double)f->crand * streams_crand(&lit->s->t->chance) : 0;
 }
 
 /* Every sample shades on its own; shadows are averaged all the same. */
 static Rgb illuminate_by_area(const Lit *lit, uint32_t index, unsigned lamp)
 {
     Shade *s = lit->s;
-    const Layer *layer = lit->layer;
     const Light *light = &s->t->world->light[index];
     Beam centre;
     light_towards(light, light->location, s->surface->p, &centre);
@@ -254,21 +266,21 @@ static Rgb illuminate_by_area(const Lit *lit, uint32_t index, unsigned lamp)
             Vec3 from = add(light->location, area_sample_place(s->t, light, &axes, u, v));
             if (!light_beam(light, from, s->surface->p, share, &beam))
                 continue;
-            bool behind = stands_behind(s, layer, beam.l);
-            if (!behind || layer->finish->diffuse_back != 0)
-                sum = rgb_add(sum, rgb_mul(answer(lit, lamp, beam.l, behind, grain_of(lit, behind)), beam.colour));
+            Facing facing = facing_of(lit, &beam.l);
+            if (is_lit(lit, facing))
+                sum = rgb_add(sum, rgb_mul(answer(lit, lamp, &beam.l, facing, grain_of(lit, facing)), beam.colour));
         }
-    return iridescent(s, layer, centre.l, sum);
+    return iridescent(lit, &centre.l, sum);
 }
 
 /* Grain is drawn for what is lit only: after the shadow. */
-static Rgb illuminate_grainy(const Lit *lit, uint32_t index, unsigned lamp, const Beam *beam, bool behind)
+static Rgb illuminate_grainy(const Lit *lit, uint32_t index, unsigned lamp, const Beam *beam, Facing facing)
 {
     Rgb colour = shadowed(lit->s, index, lamp, beam);
     if (is_dark(colour))
         return rgb_grey(0);
-    Rgb factor = answer(lit, lamp, beam->l, behind, grain_of(lit, behind));
-    return rgb_mul(iridescent(lit->s, lit->layer, beam->l, factor), colour);
+    Rgb factor = answer(lit, lamp, &beam->l, facing, grain_of(lit, facing));
+    return rgb_mul(iridescent(lit, &beam->l, factor), colour);
 }
 
 static inline Rgb illuminate(const Lit *lit, uint32_t index)
@@ -285,18 +297,16 @@ static inline Rgb illuminate(const Lit *lit, uint32_t index)
     } else if (!light_beam(light, light->location, s->surface->p, light->colour, &beam)) {
         return rgb_grey(0);
     }
-    bool behind = stands_behind(s, lit->layer, beam.l);
-    if (behind && lit->layer->finish->diffuse_back == 0)
+    Facing facing = facing_of(lit, &beam.l);
+    if (!is_lit(lit, facing))
         return rgb_grey(0);
     if (lit->layer->finish->crand > 0)
-        return illuminate_grainy(lit, index, lamp, &beam, behind);
-    Rgb factor = answer(lit, lamp, beam.l, behind, 0);
+        return illuminate_grainy(lit, index, lamp, &beam, facing);
+    Rgb factor = answer(lit, lamp, &beam.l, facing, 0);
     if (rgb_is_zero(factor))
         return factor;
     Rgb colour = shadowed(s, index, lamp, &beam);
-    if (is_dark(colour))
-        return rgb_grey(0);
-    return rgb_mul(iridescent(s, lit->layer, beam.l, factor), colour);
+    return is_dark(colour) ? rgb_grey(0) : rgb_mul(iridescent(lit, &beam.l, factor), colour);
 }
 
 Rgb shade_lights(Shade *s, const Layer *layer)

@@ -168,41 +168,48 @@ static bool still_hidden(Tracer *t, uint32_t light, const Ray *ray)
     return false;
 }
 
-/* Fills `veils` with the next ones that the walk meets; false: something opaque stands in the way. */
-static bool find_veils(Walk *walk, Veils *veils, uint32_t light, const Shaft *among)
+/* Fills `veils` with what the ray meets next; false: something opaque stands in the way. */
+static inline bool find_veils(Tracer *t, const Ray *ray, uint32_t light, const Shaft *among, Veils *veils)
 {
-    const World *w = walk->t->world;
+    const World *w = t->world;
     veils->world = w;
     veils->n = 0;
     veils->overflowed = false;
-    bool hidden = among != NULL ? shaft_each_hit(w, among, &walk->ray, keep_veil, veils)
-                                : world_each_hit(w, &walk->ray, PRIM_NO_SHADOW, keep_veil, veils);
+    bool hidden = among != NULL ? shaft_each_hit(w, among, ray, keep_veil, veils)
+                                : world_each_hit(w, ray, PRIM_NO_SHADOW, keep_veil, veils);
     if (hidden)
-        walk->t->last_blocker[light] = veils->blocker + 1;
+        t->last_blocker[light] = veils->blocker + 1;
     return !hidden;
 }
 
-/* Passes the surfaces found, and goes on. */
-static Rgb pass_veils(Walk *walk, Veils *veils, uint32_t light, const Shaft *among)
+/* Passes the surfaces found, and goes on. Kept out of the way of rays that meet none. */
+__attribute__((noinline)) static Rgb pass_veils(const Spot *spot, uint32_t light, const Shaft *among, const Ray *ray, Veils *veils, Rgb colour)
 {
+    Walk walk;
+    walk.t = spot->t;
+    walk.ray = *ray;
+    walk.done = walk.clear = 0;
+    walk.in_air = shadow_dims(spot->t, &spot->t->world->light[light]);
+    walk.colour = colour;
+    interiors_copy(&walk.in, spot->in);
     for (;;) {
         if (veils->n > 1)
             qsort(veils->hit, veils->n, sizeof veils->hit[0], hit_order);
         for (uint32_t i = 0; i < veils->n; i++) {
-            if (veils->hit[i].t <= walk->clear)
+            if (veils->hit[i].t <= walk.clear)
                 continue;                      /* seen as one surface, as rays that go on from it see it */
-            pass_surface(walk, &veils->hit[i]);
-            if (rgb_is_zero(walk->colour))
-                return walk->colour;
+            pass_surface(&walk, &veils->hit[i]);
+            if (rgb_is_zero(walk.colour))
+                return walk.colour;
         }
         if (!veils->overflowed)
             break;
-        walk->ray.t_min = veils->hit[veils->n - 1].t;
-        if (!find_veils(walk, veils, light, among))
+        walk.ray.t_min = veils->hit[veils->n - 1].t;
+        if (!find_veils(walk.t, &walk.ray, light, among, veils))
             return rgb_grey(0);
     }
-    dim_by_air(walk, walk->ray.t_max);
-    return walk->colour;
+    dim_by_air(&walk, walk.ray.t_max);
+    return walk.colour;
 }
 
 bool shadow_dims(const Tracer *t, const Light *light)
@@ -214,30 +221,25 @@ Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour, 
 {
     Tracer *t = spot->t;
     const Light *source = &t->world->light[light];
-    Walk walk;                                 /* the rest is written when there is something to pass */
+    Ray ray = { spot->p, beam->l, 0, beam->d * LIGHT_END };
     if (spot->surface != NULL)
-        walk.ray = (Ray){ surface_offset(spot->surface, beam->l), beam->l, 0, beam->d * LIGHT_END };
+        ray.o = surface_offset(spot->surface, beam->l);
     else
-        walk.ray = (Ray){ spot->p, beam->l, max_abs(spot->p) * AIR_START, beam->d * LIGHT_END };
+        ray.t_min = max_abs(spot->p) * AIR_START;
     if (source->projected_through != 0) {
         Hit hit;
-        if (!item_nearest(t->world, source->projected_through - 1, &walk.ray, &hit))
+        if (!item_nearest(t->world, source->projected_through - 1, &ray, &hit))
             return rgb_grey(0);
         if (source->def->shadowless)
             return colour;
-        walk.ray.t_max = hit.t * LIGHT_END;    /* only what stands on this side of the projecting surface counts */
+        ray.t_max = hit.t * LIGHT_END;         /* only what stands on this side of the projecting surface counts */
     }
-    if (among == NULL && still_hidden(t, light, &walk.ray))
+    if (among == NULL && still_hidden(t, light, &ray))
         return rgb_grey(0);
     Veils veils;                               /* not cleared: its hits are many */
-    walk.t = t;
-    if (!find_veils(&walk, &veils, light, among))
+    if (!find_veils(t, &ray, light, among, &veils))
         return rgb_grey(0);
-    walk.in_air = shadow_dims(t, source);
-    if (veils.n == 0 && !walk.in_air)
+    if (veils.n == 0 && !shadow_dims(t, source))
         return colour;
-    walk.colour = colour;
-    walk.done = walk.clear = 0;
-    interiors_copy(&walk.in, spot->in);
-    return pass_veils(&walk, &veils, light, among);
+    return pass_veils(spot, light, among, &ray, &veils, colour);
 }
