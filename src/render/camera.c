@@ -28,15 +28,10 @@ bool camera_moves(const CameraDef *def)
            def->kind == CAMERA_MESH || (def->aperture != 0 && def->blur_samples > 0);
 }
 
-static Vec3 blend(Vec3 a, double x, Vec3 b, double y, Vec3 c, double z)
-{
-    return add(add(scaled(a, x), scaled(b, y)), scaled(c, z));
-}
-
 /* Turned about a unit axis; about up, a positive angle carries direction towards right. */
 static Vec3 turned(Vec3 v, Vec3 axis, double angle)
 {
-    return blend(v, cos(angle), cross(axis, v), sin(angle), axis, dot(axis, v) * (1 - cos(angle)));
+    return camera_blend(v, cos(angle), cross(axis, v), sin(angle), axis, dot(axis, v) * (1 - cos(angle)));
 }
 
 /* POV: from -90 degrees to 270; only camera normals see the difference. */
@@ -51,7 +46,7 @@ static double angle_around(double p, double q, double r)
 /* theta off the view axis, phi around it. */
 static Vec3 off_axis(const Camera *c, double phi, double theta)
 {
-    return blend(c->right, cos(phi) * sin(theta), c->up, sin(phi) * sin(theta), c->direction, cos(theta));
+    return camera_blend(c->right, cos(phi) * sin(theta), c->up, sin(phi) * sin(theta), c->direction, cos(theta));
 }
 
 static bool fisheye(const Camera *c, double u, double v, CameraRay *out)
@@ -94,7 +89,7 @@ static void panoramic(const Camera *c, double u, double v, CameraRay *out)
     double a = PI * (0.5 - u), b = PI * v;
     double steep = fabs(PI / 2 - fabs(b)) < 1e-10 ? (b > 0 ? 2e10 : -2e10) : tan(b);
     out->work = (Vec2){ a, b };
-    out->d = blend(c->def->right, cos(a), c->def->up, steep, c->def->direction, sin(a));
+    out->d = camera_blend(c->def->right, cos(a), c->def->up, steep, c->def->direction, sin(a));
 }
 
 static void cylindrical(const Camera *c, double u, double v, CameraRay *out)
@@ -113,25 +108,19 @@ static void cylindrical(const Camera *c, double u, double v, CameraRay *out)
         out->o = add(out->o, scaled(axis, along));
 }
 
-bool camera_ray(const Camera *c, double x, double y, CameraRay *out)
+bool camera_bent_ray(const Camera *c, double u, double v, CameraRay *out)
 {
     const CameraDef *def = c->def;
-    double u = (x + 0.5) / c->width - 0.5, v = 0.5 - (y + 0.5) / c->height;
-    out->o = def->location;
-    out->work = (Vec2){ u, v };
     switch (def->kind) {
-    case CAMERA_PERSPECTIVE:
-        out->d = blend(def->direction, 1, def->right, u, def->up, v);
-        return true;
     case CAMERA_ORTHOGRAPHIC:
-        out->o = blend(def->location, 1, def->right, u, def->up, v);
+        out->o = camera_blend(def->location, 1, def->right, u, def->up, v);
         out->d = def->direction;
         return true;
     case CAMERA_FISHEYE:
         return fisheye(c, u, v, out);
     case CAMERA_ULTRA_WIDE_ANGLE:
         out->work = (Vec2){ u * c->angle, v * c->angle * c->up_length / c->right_length };
-        out->d = blend(c->right, sin(out->work.u), c->up, sin(out->work.v), c->direction, cos(out->work.u) * cos(out->work.v));
+        out->d = camera_blend(c->right, sin(out->work.u), c->up, sin(out->work.v), c->direction, cos(out->work.u) * cos(out->work.v));
         return true;
     case CAMERA_OMNIMAX:
         return omnimax(c, u, v, out);
@@ -148,6 +137,7 @@ bool camera_ray(const Camera *c, double x, double y, CameraRay *out)
     case CAMERA_CYLINDER_4:
         cylindrical(c, u, v, out);
         return true;
+    case CAMERA_PERSPECTIVE:
     case CAMERA_MESH:
         break;
     }

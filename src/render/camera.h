@@ -19,8 +19,27 @@ typedef struct CameraRay {                     /* scene space; d of any length *
 
 Camera camera_new(const CameraDef *def, int width, int height);
 
+/* a x + b y + c z */
+static inline Vec3 camera_blend(Vec3 a, double x, Vec3 b, double y, Vec3 c, double z)
+{
+    return add(add(scaled(a, x), scaled(b, y)), scaled(c, z));
+}
+
+/* For all kinds but perspective; u, v: from the middle of the picture, in its sizes, in out->work already. */
+bool camera_bent_ray(const Camera *c, double u, double v, CameraRay *out);
+
 /* x, y: whole numbers are pixel centres. False: nothing is seen there. Not for mesh cameras. */
-bool camera_ray(const Camera *c, double x, double y, CameraRay *out);
+static inline bool camera_ray(const Camera *c, double x, double y, CameraRay *out)
+{
+    const CameraDef *def = c->def;
+    double u = (x + 0.5) / c->width - 0.5, v = 0.5 - (y + 0.5) / c->height;
+    out->o = def->location;
+    out->work = (Vec2){ u, v };
+    if (def->kind != CAMERA_PERSPECTIVE)
+        return camera_bent_ray(c, u, v, out);
+    out->d = camera_blend(def->direction, 1, def->right, u, def->up, v);
+    return true;
+}
 
 /* Do rays start in different places? */
 bool camera_moves(const CameraDef *def);

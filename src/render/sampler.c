@@ -17,6 +17,18 @@ static bool bodies_differ(const Sampling *s)
     return !world_same_bodies(s->world, eye, (Bounds){ sub(eye, half), add(eye, half) });
 }
 
+/* Places within the pixel, cells of 16 x 16, each jittered. POV: the jitter is biased towards the upper left. */
+static const Vec2 *blur_cells(Arena *arena, const PositionHash *h)
+{
+    Vec2 *cell = arena_array(arena, Vec2, 16 * 16);
+    for (int i = 0; i < 16 * 16; i++) {
+        double x = (2 * (i % 16) + 1) / 32.0 - 0.5, y = (2 * (i / 16) + 1) / 32.0 - 0.5;
+        Vec2 j = position_jitter(h, x, y);
+        cell[i] = (Vec2){ x + (j.u - 0.5) / 16, y + (j.v - 0.5) / 16 };
+    }
+    return cell;
+}
+
 Sampling *sampling_new(Arena *arena, const World *w, const RenderOptions *options)
 {
     Sampling *s = arena_new(arena, Sampling);
@@ -29,7 +41,10 @@ Sampling *sampling_new(Arena *arena, const World *w, const RenderOptions *option
     s->across = normalized(cross(w->camera.up, w->camera.direction));
     s->down = normalized(cross(w->camera.direction, s->across));
     s->focus = w->camera.focal_distance / length(w->camera.direction);
+    s->radius = w->camera.aperture / 2;
     position_hash_fill(&s->hash);
+    if (s->blur != NULL)
+        s->blur_cell = blur_cells(arena, &s->hash);
     return s;
 }
 
@@ -86,31 +101,22 @@ static bool moments_settled(const Moments *m, uint32_t n, double threshold)
     return true;
 }
 
-/* Sample m within the pixel: a cell of 16 x 16, jittered. POV: the jitter is biased towards the upper left. */
-static Vec2 blur_place(const PositionHash *h, int seed, uint32_t m)
-{
-    int at = seed + (int)m;
-    double x = (2 * (h->permutation[at & (HASH_SIZE - 1)] % 16) + 1) / 32.0 - 0.5;
-    double y = (2 * (h->permutation[(at + 1) & (HASH_SIZE - 1)] % 16) + 1) / 32.0 - 0.5;
-    Vec2 j = position_jitter(h, x, y);
-    return (Vec2){ x + (j.u - 0.5) / 16, y + (j.v - 0.5) / 16 };
-}
-
 /* POV: all rays start near the location, those of orthographic cameras too. */
 static bool blur_ray(const Sampling *all, double x, double y, int seed, uint32_t m, CameraRay *ray)
 {
-    const CameraDef *def = all->camera.def;
     const Blur *blur = all->blur;
-    Vec2 within = blur_place(&all->hash, seed, m);
+    const uint16_t *hash = all->hash.permutation;
+    uint32_t at = (uint32_t)seed + m, row = hash[(at + 1) % HASH_SIZE] % 16, column = hash[at % HASH_SIZE] % 16;
+    Vec2 within = all->blur_cell[16 * row + column];
     x += within.u;
     y += within.v;
     if (!camera_ray(&all->camera, x, y, ray))
         return false;
     Vec2 k = position_jitter(&all->hash, x + 0.5, y - 0.5);
-    double ex = def->aperture / 2 * (blur->place[m].u + 2 * blur->jitter * k.u);
-    double ey = def->aperture / 2 * (blur->place[m].v + 2 * blur->jitter * k.v);
+    double ex = all->radius * (blur->place[m].u + 2 * blur->jitter * k.u);
+    double ey = all->radius * (blur->place[m].v + 2 * blur->jitter * k.v);
     Vec3 e = sub(scaled(all->across, ex), scaled(all->down, ey));
-    ray->o = add(def->location, e);
+    ray->o = add(all->camera.def->location, e);
     ray->d = sub(scaled(ray->d, all->focus), e);
     return true;
 }

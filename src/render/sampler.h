@@ -14,9 +14,11 @@ typedef struct Sampling {
     const Tracing *tracing;
     Camera camera;
     const Blur *blur;                          /* NULL: none */
+    const Vec2 *blur_cell;                     /* [16 * row + column]: the place that a sample in this cell of a pixel has */
     const MeshCamera *mesh;                    /* NULL: another kind of camera */
     PositionHash hash;
     Vec3 across, down;                         /* of the aperture */
+    double radius;                             /* half its diameter */
     double focus;                              /* distance of what is sharp, in lengths of the camera's direction */
     bool moves;                                /* the bodies around the eye differ from ray to ray */
 } Sampling;
