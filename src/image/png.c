@@ -220,10 +220,6 @@ static void pack(Packer *k, unsigned char *bytes, size_t n, bool last)
 /* What is left of a row when each byte is told from those to the left, above, and left above (PNG specification, 9.4). */
 static void filter_paeth(const unsigned char *row, const unsigned char *above, int pixel, size_t n, unsigned char *out)
 {
-    if (memcmp(row, above, n) == 0) {
-        memset(out, 0, n);
-        return;
-    }
     for (size_t i = 0; i < n; i++) {
         int a = row[(ptrdiff_t)i - pixel], b = above[i], c = above[(ptrdiff_t)i - pixel];
         int from_a = abs(b - c), from_b = abs(a - c), from_c = abs(a + b - 2 * c);
@@ -233,24 +229,33 @@ static void filter_paeth(const unsigned char *row, const unsigned char *above, i
     }
 }
 
+static void narrow(const uint16_t *code, int n, int bits, unsigned char *out)
+{
+    for (int i = 0; i < n && bits == 8; i++)
+        out[i] = (unsigned char)code[i];
+    for (int i = 0; i < n && bits == 16; i++) {
+        out[2 * i] = (unsigned char)(code[i] >> 8);
+        out[2 * i + 1] = (unsigned char)code[i];
+    }
+}
+
 static void write_rows(Packer *k, const Codes *c, size_t n)
 {
     const uint16_t *code = c->code;
     int samples = c->width * c->channels, pixel = c->channels * c->bits / 8;
     unsigned char *row = k->rows + MARGIN, *above = row + n + MARGIN, *filtered = above + n + MARGIN;
+    filtered[-1] = PAETH;
     for (int y = 0; y < c->height; y++, code += samples) {
-        for (int i = 0; i < samples && c->bits == 8; i++)
-            row[i] = (unsigned char)code[i];
-        for (int i = 0; i < samples && c->bits == 16; i++) {
-            row[2 * i] = (unsigned char)(code[i] >> 8);
-            row[2 * i + 1] = (unsigned char)code[i];
+        if (y > 0 && memcmp(code, code - samples, (size_t)samples * sizeof *code) == 0) {
+            memset(filtered, 0, n);            /* the same once more leaves nothing */
+        } else {
+            unsigned char *old = above;
+            above = row;
+            row = old;
+            narrow(code, samples, c->bits, row);
+            filter_paeth(row, above, pixel, n, filtered);
         }
-        filtered[-1] = PAETH;
-        filter_paeth(row, above, pixel, n, filtered);
         pack(k, filtered - 1, n + 1, false);
-        unsigned char *old = above;
-        above = row;
-        row = old;
     }
     pack(k, NULL, 0, true);
     png_write_chunk(k->png, (const png_byte *)"IEND", NULL, 0);

@@ -3,6 +3,8 @@
  * A loop in a file is captured once, from its directive to its #end, as an array of tokens in which every directive knows
  * the index of its next branch; turning and skipping is then a matter of setting an index. Conditionals outside of
  * loops and macros run straight off the text. What the directives do with all this is in flow.c. */
+#include <string.h>
+
 #include "sdl/parser.h"
 
 void cursor_stop_check(Parser *p)
@@ -288,13 +290,27 @@ static const Capture *find_capture(Parser *p, uint64_t key, uint32_t *slot)
     return NULL;
 }
 
+/* The tokens that a body begins with: most are not longer, and are lexed only once. */
+enum { BEGINNING = 500 };
+typedef struct Beginning {
+    Token token[BEGINNING];
+    uint32_t n;
+    Lexer after;
+} Beginning;
+
 /* How many tokens there are from `first`, which has been read, to its #end. */
-static uint32_t count_body(Parser *p, Lexer l, const Token *first)
+static uint32_t count_body(Parser *p, Lexer l, const Token *first, Beginning *b)
 {
     uint32_t n = 1, n_open = 1;
+    b->token[0] = *first;
     while (n_open) {
         Token t;
         lex_next(p, &l, &t);
+        if (n < BEGINNING) {
+            b->token[n] = t;
+            b->n = n + 1;
+            b->after = l;
+        }
         if (t.kind == TOK_END && p->n_includes > 1 && (first->directive == KW_WHILE || first->directive == KW_FOR))
             fail(p->diag, first->loc, "#%s loop did not end in file where it started.",
                  first->directive == KW_FOR ? "for" : "while");
@@ -310,7 +326,7 @@ static uint32_t count_body(Parser *p, Lexer l, const Token *first)
     return n;
 }
 
-/* Lexes on to that #end, twice: a body may be a mesh of millions of tokens, for which no array is allowed to grow by
+/* Lexes on to that #end, what is long twice: a body may be a mesh of millions of tokens, for which no array is allowed to grow by
  * copying. Links the directives. The same place of the same file gives the same array again: an include that is read a
  * thousand times is captured once. */
 const Capture *cursor_capture(Parser *p, Lexer *l, const Token *first)
@@ -320,13 +336,16 @@ const Capture *cursor_capture(Parser *p, Lexer *l, const Token *first)
     const Capture *known = find_capture(p, key, &slot);
     if (known)
         return known;
-    uint32_t n = count_body(p, *l, first);
+    Beginning beginning;
+    uint32_t n = count_body(p, *l, first, &beginning);
     Token *tokens = arena_array(p->arena, Token, n);
-    tokens[0] = *first;
+    memcpy(tokens, beginning.token, beginning.n * sizeof *tokens);
+    *l = beginning.after;
     open[n_open++] = 0;
     for (uint32_t at = 1; at < n; at++) {
         Token *t = &tokens[at];
-        lex_next(p, l, t);
+        if (at >= beginning.n)
+            lex_next(p, l, t);
         if (t->kind != TOK_HASH)
             continue;
         if (t->directive == KW_END)
