@@ -4,6 +4,7 @@
 #include <setjmp.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
 #include "base/file.h"
 #include "base/thread.h"
@@ -258,6 +259,22 @@ static bool region(Whit *w, RenderOptions *r)
            && r->first_column <= r->last_column && r->first_row <= r->last_row;
 }
 
+/* On huge pages where the system has them: the faults of small ones are a tenth of what an empty scene takes. */
+static float *pixels_new(size_t n)
+{
+    enum { HUGE_PAGE = 1 << 21 };
+    size_t bytes = n * 4 * sizeof(float);
+    if (bytes < HUGE_PAGE / 2)
+        return malloc(bytes);
+    bytes = (bytes + HUGE_PAGE - 1) & ~(size_t)(HUGE_PAGE - 1);
+    float *pixels = aligned_alloc(HUGE_PAGE, bytes);
+#ifdef MADV_HUGEPAGE
+    if (pixels)
+        madvise(pixels, bytes, MADV_HUGEPAGE);
+#endif
+    return pixels;
+}
+
 static void prepare_picture(Whit *w, void *with)
 {
     const WhitOptions *o = &w->options;
@@ -265,7 +282,7 @@ static void prepare_picture(Whit *w, void *with)
         fail(w->diag, (Loc){ 0 }, "the region of columns and rows does not lie within the picture");
     free(w->rgba);
     size_t pixels = (size_t)o->width * (size_t)o->height;
-    w->rgba = malloc(pixels * 4 * sizeof *w->rgba);
+    w->rgba = pixels_new(pixels);
     if (!w->rgba)
         fail_io(w->diag, (Loc){ 0 }, "no memory for %d x %d pixels", o->width, o->height);
     for (size_t i = 0; i < pixels; i++)        /* outside the region: black and opaque */
