@@ -61,7 +61,9 @@ typedef struct Area {
     Vec3 l;
     AreaAxes axes;
     Rgb colour;
-    const Shaft *among;                        /* what may hide samples; NULL: not known */
+    Shaft *among;                              /* what may hide samples; NULL: not known */
+    bool plain;                                /* a sample is hidden or has this colour */
+    Ray ray;                                   /* if plain: starts as those to the samples do */
 } Area;
 
 /* ---- what lies between ---- */
@@ -123,6 +125,17 @@ static Between look_between(const Area *a, Shaft *shaft)
 
 /* ---- samples ---- */
 
+/* What gets through to the spot from here. */
+static Rgb seen_from(const Area *a, Vec3 from)
+{
+    Beam beam;
+    light_towards(a->light, from, a->spot->p, &beam);
+    if (!a->plain)
+        return shadow_walk(a->spot, a->index, &beam, a->colour, a->among);
+    Ray ray = { a->ray.o, beam.l, a->ray.t_min, beam.d * LIGHT_END };
+    return shaft_blocks(a->spot->t->world, a->among, &ray) ? rgb_grey(0) : a->colour;
+}
+
 /* POV: a sample counts as known by its red not being negative. */
 static f4 area_sample(const Area *a, int u, int v)
 {
@@ -130,10 +143,7 @@ static f4 area_sample(const Area *a, int u, int v)
     AreaSample *known = &t->area[u * a->light->def->size2 + v];
     if (known->stamp == t->area_stamp && known->colour[0] >= 0)
         return f4_load(known->colour);
-    Vec3 from = add(a->light->location, area_sample_place(t, a->light, &a->axes, u, v));
-    Beam beam;
-    light_towards(a->light, from, a->spot->p, &beam);
-    Rgb c = shadow_walk(a->spot, a->index, &beam, a->colour, a->among);
+    Rgb c = seen_from(a, add(a->light->location, area_sample_place(t, a->light, &a->axes, u, v)));
     known->stamp = t->area_stamp;
     known->colour[0] = c.r;
     known->colour[1] = c.g;
@@ -198,6 +208,10 @@ Rgb area_visible(const Spot *spot, uint32_t light, Rgb colour)
         return mean_of_equals(&a, colour);
     if (between == BETWEEN_DARK)
         return mean_of_equals(&a, rgb_grey(0));
-    a.among = between != BETWEEN_UNKNOWN ? &among : NULL;
+    if (between == BETWEEN_SOME) {
+        a.among = &among;
+        a.plain = shaft_is_opaque(spot->t->world, &among) && !shadow_dims(spot->t, source);
+        a.ray = shadow_ray(spot, a.l, 0);      /* look_between has seen that all start there */
+    }
     return mean_of_all(&a);
 }

@@ -14,6 +14,9 @@ static const double TINY = 1e-10;
 /* How far a ray goes that hits nothing, in world units (the scene is about 1 large). */
 static const double FAR_AWAY = 2e10;
 
+/* What lies within a few roundings of a light does not hide it: how much of the way to it counts. */
+static const double LIGHT_END = 1 - 0x1p-36;
+
 /* Rays within rays, straight ones counted too. A limit of the stack, far beyond what can be seen. */
 enum { NESTING_MAX = 1000 };
 
@@ -176,6 +179,7 @@ Rgb light_shadowed(const Spot *spot, uint32_t light, const Beam *beam);
 
 /* shadow.c: `colour` as it passes from the light at distance beam->d to the spot. */
 Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour, const Shaft *among);  /* NULL: all prims */
+Ray shadow_ray(const Spot *spot, Vec3 l, double d);
 bool shadow_dims(const Tracer *t, const Light *light);     /* may it grow weaker where it meets no surface? */
 
 /* area.c */

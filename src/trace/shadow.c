@@ -10,9 +10,6 @@
 /* A place in the air may lie on the wall of the body whose media are sampled: the light is not to pass that wall. */
 static const double AIR_START = 0x1p-28;
 
-/* What lies within a few roundings of the light does not hide it. */
-static const double LIGHT_END = 1 - 0x1p-36;
-
 enum { VEILS_MAX = 32 };                       /* transparent hits kept at once; more are walked in further rounds */
 
 typedef struct Veils {
@@ -217,15 +214,18 @@ bool shadow_dims(const Tracer *t, const Light *light)
     return t->tracing->air_dims && light->def->media_attenuation && light->def->media_interaction;
 }
 
+Ray shadow_ray(const Spot *spot, Vec3 l, double d)
+{
+    if (spot->surface != NULL)
+        return (Ray){ surface_offset(spot->surface, l), l, 0, d * LIGHT_END };
+    return (Ray){ spot->p, l, max_abs(spot->p) * AIR_START, d * LIGHT_END };
+}
+
 Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour, const Shaft *among)
 {
     Tracer *t = spot->t;
     const Light *source = &t->world->light[light];
-    Ray ray = { spot->p, beam->l, 0, beam->d * LIGHT_END };
-    if (spot->surface != NULL)
-        ray.o = surface_offset(spot->surface, beam->l);
-    else
-        ray.t_min = max_abs(spot->p) * AIR_START;
+    Ray ray = shadow_ray(spot, beam->l, beam->d);
     if (source->projected_through != 0) {
         Hit hit;
         if (!item_nearest(t->world, source->projected_through - 1, &ray, &hit))

@@ -135,6 +135,14 @@ void shaft_narrow(const World *w, Vec3 o, const Window *to, Vec3 up, Shaft *shaf
     shaft->n = n;
 }
 
+bool shaft_is_opaque(const World *w, const Shaft *shaft)
+{
+    for (uint32_t i = 0; i < shaft->n; i++)
+        if (!(w->prim[shaft->prim[i]].flags & PRIM_OPAQUE))
+            return false;
+    return true;
+}
+
 /* ---- closed by one prim ---- */
 
 /* By how much a window is widened, as a share of its distance, so that rays to the window itself are clear of all edges; and

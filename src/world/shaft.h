@@ -28,6 +28,11 @@ bool shaft_is_closed(const World *w, Vec3 o, const Window *to, const Shaft *shaf
 /* As world_each_hit, for a ray within a shaft that is not crowded. */
 bool shaft_each_hit(const World *w, const Shaft *shaft, const Ray *ray, HitVisit *visit, void *user);
 
+/* Is there any hit? What gives one moves to the front: neighbouring rays ask it first. */
+bool shaft_blocks(const World *w, Shaft *shaft, const Ray *ray);
+
+bool shaft_is_opaque(const World *w, const Shaft *shaft);      /* all of it */
+
 /* Do the bodies that contain o contain all of the box, too? False if that is not easily said. */
 bool world_same_bodies(const World *w, Vec3 o, Bounds box);
 
