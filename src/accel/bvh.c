@@ -79,8 +79,8 @@ static void item_set_box(Item *item, Box b)
 static float box_area(Box b)
 {
     float d[4];
-    f4_store(d, f4_sub(b.hi, b.lo));
-    return d[0] >= 0 && d[1] >= 0 && d[2] >= 0 ? d[0] * d[1] + d[1] * d[2] + d[2] * d[0] : 0;
+    f4_store(d, f4_max(f4_sub(b.hi, b.lo), f4_set(0)));
+    return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
 }
 
 /* Kept within floats: what is unbounded counts as far away. */

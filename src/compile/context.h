@@ -85,6 +85,8 @@ struct Compile {
     /* The shape being compiled. */
     const Inherited *from;
     Affine shape_place;                        /* its own space to the world */
+    Affine scaled_place, scaled_from;          /* of build_place: the last result, and what it was made from */
+    double scaled_by;
     uint32_t shape_material, shape_flags;
     bool recording, asked_own, all_opaque, no_inside;  /* recording: build_prim writes shared_prim */
 };

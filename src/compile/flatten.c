@@ -22,9 +22,25 @@ void *build_data(ShapeBuild *b, size_t bytes)
     return arena_alloc(b->arena, bytes);
 }
 
+static bool same_place(const Affine *a, const Affine *b)
+{
+    return memcmp(a->m, b->m, sizeof a->m) == 0 && memcmp(a->inv, b->inv, sizeof a->inv) == 0;
+}
+
+/* Most shapes of a scene stand in its own space and have its own unit: they all ask for the same. */
 Affine build_place(const ShapeBuild *b, double s)
 {
-    return s == 1 ? b->place : affine_then(affine_scale(vec3(s, s, s)), b->place);
+    Compile *c = b->compile;
+    if (s == 1)
+        return b->place;
+    if (b->place.identity)
+        return affine_scale(vec3(s, s, s));
+    if (s != c->scaled_by || !same_place(&b->place, &c->scaled_from)) {
+        c->scaled_by = s;
+        c->scaled_from = b->place;
+        c->scaled_place = affine_then(affine_scale(vec3(s, s, s)), b->place);
+    }
+    return c->scaled_place;
 }
 
 Affine build_own_place(ShapeBuild *b)
@@ -72,8 +88,7 @@ static const Affine *kept_place(Compile *c, const Affine *place)
     if (place->identity)
         return c->identity;
     const Affine **recent = &c->recent_place[hash_bytes(place->m, sizeof place->m) % RECENT_PLACES];
-    if (*recent == NULL || memcmp((*recent)->m, place->m, sizeof place->m) != 0 ||
-        memcmp((*recent)->inv, place->inv, sizeof place->inv) != 0)
+    if (*recent == NULL || !same_place(*recent, place))
         *recent = arena_copy(c->arena, place, sizeof *place);
     return *recent;
 }
