@@ -23,17 +23,9 @@ const char *parse_word(int keyword)
     return "?";
 }
 
-static int keyword_of(const char *word)
+static int keyword_of(Parser *p, const char *word)
 {
-    static const struct { const char *word; int keyword; } words[] = {
-#define KEYWORD(word, kw) { #word, kw },
-#include "sdl/keyword.def"
-#undef KEYWORD
-    };
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strcmp(words[i].word, word) == 0)
-            return words[i].keyword;
-    return KW_NONE;
+    return symbol_intern(p, word, strlen(word))->keyword;
 }
 
 Blocks *blocks_new(Parser *p, Scene *scene)
@@ -42,9 +34,9 @@ Blocks *blocks_new(Parser *p, Scene *scene)
     Blocks *b = arena_new(p->arena, Blocks);
     b->scene = scene;
     for (const ShapeOps *const *s = registry->shape; *s != NULL; s++)
-        b->shape_of[keyword_of((*s)->keyword)] = *s;
+        b->shape_of[keyword_of(p, (*s)->keyword)] = *s;
     for (const PatternOps *const *o = registry->pattern; *o != NULL; o++)
-        b->pattern_of[keyword_of((*o)->keyword)] = *o;
+        b->pattern_of[keyword_of(p, (*o)->keyword)] = *o;
     Texture *t = arena_new(p->arena, Texture);
     *t = (Texture){ .kind = TEXTURE_PLAIN, .pigment = &PIGMENT_EMPTY, .finish = &FINISH_DEFAULT };
     b->default_texture = t;

@@ -78,12 +78,14 @@ static const uint16_t directives[] = {
 
 void symbols_init(Parser *p)
 {
+    bool is_directive[N_KEYWORDS] = { false };
+    for (size_t i = 0; i < sizeof directives / sizeof *directives; i++)
+        is_directive[directives[i]] = true;
     grow(p);
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         Sym *s = symbol_intern(p, words[i].text, strlen(words[i].text));
         s->keyword = words[i].keyword;
-        for (size_t k = 0; k < sizeof directives / sizeof *directives; k++)
-            s->is_directive |= directives[k] == s->keyword;
+        s->is_directive = is_directive[s->keyword];
     }
     p->n_tables = 1;
 }
