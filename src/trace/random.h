@@ -41,6 +41,7 @@ static inline double streams_uniform(Streams *s)       /* [0, 1) */
 
 static inline void streams_skip(Streams *s, uint32_t n)       /* as n of the above */
 {
+    s->used |= n > 0;
     s->at = (s->at + n) % STREAM_SIZE;
 }
 

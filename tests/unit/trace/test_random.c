@@ -34,6 +34,23 @@ static void the_stream_starts_with_its_second_entry(void **state)
     assert_true(fabs(streams_uniform(&s) - expected[0]) < 1e-6);       /* round and round */
 }
 
+static void skipping_is_drawing_without_looking(void **state)
+{
+    (void)state;
+    static const uint32_t counts[] = { 0, 1, 32, STREAM_SIZE - 1, STREAM_SIZE + 5 };
+    static double table[STREAM_SIZE];
+    stream_fill(table);
+    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
+        Streams drawn, skipped;
+        streams_start(&drawn, table, 3);
+        streams_start(&skipped, table, 3);
+        for (uint32_t i = 0; i < counts[k]; i++)
+            streams_uniform(&drawn);
+        streams_skip(&skipped, counts[k]);
+        assert_true(drawn.at == skipped.at && drawn.used == skipped.used);
+    }
+}
+
 static void tiles_start_in_different_places(void **state)
 {
     (void)state;
@@ -102,6 +119,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_twister_is_the_standard_one),
         cmocka_unit_test(the_stream_starts_with_its_second_entry),
+        cmocka_unit_test(skipping_is_drawing_without_looking),
         cmocka_unit_test(tiles_start_in_different_places),
         cmocka_unit_test(grain_is_within_its_range),
         cmocka_unit_test(the_position_hash_matches_the_reference),
