@@ -252,6 +252,7 @@ typedef struct Emit {
     uint32_t *uses, *last;                     /* how often the value is read; by which instruction last */
     uint16_t *reg;
     bool *joined;                              /* a product that its sum computes, or a number that stands in instructions */
+    bool *turns;                               /* only sines and cosines of whole multiples are taken: whole turns do not matter */
     ARRAY(Instr) code;
     ARRAY(uint16_t) argument;
     ARRAY(uint16_t) free;
@@ -279,6 +280,38 @@ static void count_uses(Emit *e, FuncNode result)
             e->uses[operand[k]]++;
         for (unsigned k = 0; is_call(n->op) && k < n->n; k++)
             e->uses[b->argument.data[n->a + k]]++;
+    }
+}
+
+static bool is_whole(const FuncBuilder *b, FuncNode x)
+{
+    double v;
+    return func_is_number(b, x, &v) && v == trunc(v);
+}
+
+static bool is_any_number(const FuncBuilder *b, FuncNode x)
+{
+    double v;
+    return func_is_number(b, x, &v);
+}
+
+static void find_turns(Emit *e, FuncNode result)
+{
+    const FuncBuilder *b = e->b;
+    memset(e->turns, 1, b->node.n);
+    e->turns[result] = false;
+    for (uint32_t i = b->node.n; i-- > 0;) {
+        const Node *n = &b->node.data[i];
+        if (e->uses[i] == 0)
+            continue;
+        bool add = (n->op == FUNC_ADD || n->op == FUNC_SUB) && (is_any_number(b, n->a) || is_any_number(b, n->b));
+        bool mul = n->op == FUNC_MUL && (is_whole(b, n->a) || is_whole(b, n->b));
+        bool passes = n->op == FUNC_SIN || n->op == FUNC_COS || ((n->op == FUNC_NEG || add || mul) && e->turns[i]);
+        const uint32_t operand[3] = { n->a, n->b, n->c };
+        for (unsigned k = 0; k < operands(n); k++)
+            e->turns[operand[k]] = e->turns[operand[k]] && passes;
+        for (unsigned k = 0; is_call(n->op) && k < n->n; k++)
+            e->turns[b->argument.data[n->a + k]] = false;
     }
 }
 
@@ -396,6 +429,7 @@ static void emit_node(Emit *e, uint32_t at)
             *to[k] = e->reg[in[k]];
         for (unsigned k = 0; k < inputs(i.op); k++)
             release(e, b, in[k], at);
+        i.n = i.op == FUNC_ATAN2 && e->turns[at];
     }
     i.dst = e->reg[at] = take_register(e);
     array_push(b->arena, &e->code, i);
@@ -422,7 +456,9 @@ const Function *func_finish(FuncBuilder *b, FuncNode result)
     e.last = arena_array(b->arena, uint32_t, n);
     e.reg = arena_array(b->arena, uint16_t, n);
     e.joined = arena_array(b->arena, bool, n);
+    e.turns = arena_array(b->arena, bool, n);
     count_uses(&e, result);
+    find_turns(&e, result);
     plan(&e, result);
     for (uint32_t i = 0; i < n; i++) {
         const Node *node = &b->node.data[i];

@@ -26,7 +26,8 @@ enum {
 };
 
 typedef struct Instr {
-    uint16_t op, dst, a, b, c, n;              /* SUM ... NATIVE: n arguments, registers argument[a ...]; c: part */
+    uint16_t op, dst, a, b, c, n;              /* SUM ... NATIVE: n arguments, registers argument[a ...]; c: part.
+                                                * ATAN2: n not 0 if whole turns do not matter */
     union { double k; const void *callee; };   /* Function, FuncHost, FuncNative; NOISE: const int, the generator */
 } Instr;
 
@@ -58,6 +59,11 @@ typedef struct EvalKernel {
     void (*some)(const Function *f, const double *const *arguments, double *out, int n);       /* n <= 8 */
     void (*many)(const Function *f, const double *const *arguments, double *out, int n);
 } EvalKernel;
+
+/* One build of piece_kernel.c. */
+typedef struct PieceKernel {
+    void (*bounds)(const Function *f, const double *start, const double *speed, const double *at, FuncPieces *out);
+} PieceKernel;
 
 double code_fold(unsigned op, double a, double b, double c);   /* of an operation on numbers: what the kernel would compute */
 const EvalKernel *code_kernel(CpuIsa isa);

@@ -6,13 +6,18 @@
 
 #define DECLARE(isa) extern const EvalKernel eval_kernel_##isa[1];
 CPU_ISAS(DECLARE)
+#define DECLARE_PIECE(isa) extern const PieceKernel piece_kernel_##isa[1];
+CPU_ISAS(DECLARE_PIECE)
 
 static const EvalKernel *const kernels[] = CPU_TABLE(eval_kernel);
+static const PieceKernel *const piece_kernels[] = CPU_TABLE(piece_kernel);
 static const EvalKernel *kernel;               /* written once, before main */
+static const PieceKernel *piece_kernel;
 
 __attribute__((constructor)) static void choose_kernel(void)
 {
     kernel = kernels[cpu_isa()];
+    piece_kernel = piece_kernels[cpu_isa()];
 }
 
 const EvalKernel *code_kernel(CpuIsa isa)
@@ -87,6 +92,17 @@ void func_eval(const Function *f, const double *const *arguments, double *out, u
         } else {
             kernel->many(f, row, out + at, (int)here);
         }
+    }
+}
+
+void func_pieces(const Function *f, const double *start, const double *speed, const double at[FUNC_PIECES + 1],
+                 FuncPieces *out)
+{
+    if (f->host != NULL) {
+        for (int i = 0; i < FUNC_PIECES; i++)
+            out->first[i] = out->second[i] = INFINITY;
+    } else {
+        piece_kernel->bounds(f, start, speed, at, out);
     }
 }
 

@@ -28,18 +28,17 @@ bool func_call_vector(const Function *f, const double *arguments, double out[5])
 /* Arithmetic and the like only, so that many lanes cost little more than one. */
 bool func_is_cheap(const Function *f);
 
-/* Values of f wherever each parameter lies between lo and hi. False if nothing is known. */
-typedef struct FuncRange { double lo, hi; } FuncRange;
-bool func_range(const Function *f, const FuncRange *arguments, FuncRange *out);
-double func_cost(const Function *f);           /* of a value, roughly, in additions */
-double func_length(const Function *f);         /* instructions */
+/* How steep and how curved is f at most on pieces of a line? The arguments are start[k] + t speed[k], piece i goes from t = at[i] to
+ * at[i + 1], derivatives are by t. INFINITY: not known, or there is a kink or a jump. */
+enum { FUNC_PIECES = 8 };
+typedef struct FuncPieces { double first[FUNC_PIECES], second[FUNC_PIECES]; } FuncPieces;
+void func_pieces(const Function *f, const double *start, const double *speed, const double at[FUNC_PIECES + 1], FuncPieces *out);
 
 /* Something a function asks of another room. `call` must work from any thread; it fills `terms` numbers. */
 typedef struct FuncHost {
     void (*call)(const void *data, const double *arguments, double *out);
     const void *data;
     int parameters, terms;
-    FuncRange range;                           /* of all values; lo = hi: not known */
 } FuncHost;
 
 const Function *func_of_host(Arena *arena, const FuncHost *host);      /* copies the struct, not what `data` points to */

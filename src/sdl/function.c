@@ -401,16 +401,6 @@ static const Pattern *pattern_block(Parser *p)
     return pattern;
 }
 
-/* The modulus of patterns is 1.00001, and no wave but poly_wave leads out of that. */
-static FuncRange pattern_range(const Pattern *pattern)
-{
-    double exponent = pattern->wave == WAVE_POLY ? (double)pattern->wave_exponent : 1;
-    if (pattern->frequency == 0 && (pattern->ops->flags & PATTERN_LIST) != 0 && pattern->wave == WAVE_RAMP)
-        return (FuncRange){ 0, pattern->ops->n_items - 1 };
-    bool known = pattern->frequency != 0 && exponent >= 0;
-    return (FuncRange){ 0, known ? pow(1.0001, fmax(exponent, 1)) : 0 };
-}
-
 static const Function *internal(Parser *p)
 {
     parse_skip(p);
@@ -445,7 +435,6 @@ static const Function *special(Parser *p)
     if (kind == KW_PATTERN) {
         host.call = ask_pattern;
         ask->pattern = pattern_block(p);
-        host.range = pattern_range(ask->pattern);
     } else if (kind == KW_PIGMENT) {
         host.call = ask_pigment;
         host.terms = 5;

@@ -2,10 +2,11 @@
  *
  * The first root along a ray is sought as the reference does (08-shapes, section 22): an interval is halved, near half first, until it
  * is shorter than the accuracy, and passed over as soon as the ends and the greatest gradient say that no root fits. What is
- * found lies up to the accuracy behind the true surface, and pictures show it, so the same points are asked here; but the midpoints of
- * up to three levels of halving are computed together, in the lanes of one evaluation. */
+ * found lies up to the accuracy behind the true surface, and pictures show it, so here comes out the very same smallest interval; but
+ * most halvings on the way are skipped. Calculus tells how steep and how curved f is at most on each eighth of the ray (func_pieces):
+ * where it cannot come down to 0 nothing is asked, and where it falls all the way its root is closed in directly. Halvings that
+ * remain are done three levels at a time, in the lanes of one evaluation, where that costs little. */
 #include "func/func.h"
-#include "math/noise.h"
 #include "shape/container.h"
 #include "shape/shape.h"
 
@@ -20,8 +21,6 @@ typedef struct {
     double evaluate[3];
     bool open;
     int levels;                                /* of halving done in one evaluation */
-    int ranged;                                /* halvings down to which ranges are asked; -1: never */
-    double value_cost, row_cost, range_cost;
     double scene_unit;                         /* of compiled ones: world lengths per scene length */
     Affine place;
 } Isosurface;
@@ -86,7 +85,9 @@ typedef struct Search {
     double accuracy;                           /* as a time */
     double speed;                              /* local length per time */
     double gradient;
-    double cost;                               /* of what was asked, for choose_ranged */
+    double start, end;                         /* of the halvings */
+    bool measured;                             /* are the pieces known? They are the third halvings */
+    FuncPieces pieces;
 } Search;
 
 static double value_at(const Search *q, double t)
@@ -109,7 +110,6 @@ static void fill(Search *q, Samples *s, int first, int n)
         z[i] = p.z;
     }
     func_eval(q->s->f, (const double *const[]){ x, y, z }, s->v + first, (uint32_t)n);
-    q->cost += q->s->levels > 1 ? q->s->row_cost : n * q->s->value_cost;
     for (int i = 0; i < n; i++)
         s->v[first + i] -= q->s->threshold;
 }
@@ -148,7 +148,6 @@ static void look_closer(Search *q, Samples *s, const Samples *from, int i)
     if (s->n == 2) {
         s->v[0] = from->v[i];
         s->v[1] = value_at(q, s->t[1]);
-        q->cost += q->s->value_cost;
     } else {
         fill(q, s, 0, s->n);                   /* the first again: full rows are handled faster */
     }
@@ -167,19 +166,117 @@ static bool may_hold_root(Search *q, double length, double va, double vb)
     return va + vb < q->gradient * q->speed * length;
 }
 
-/* Does f surely keep its sign from a to b? Then the search would find nothing. */
-static bool keeps_sign(Search *q, double a, double b)
+/* What calculus says of each eighth of the way: paid for by fewer halvings once the first two have not settled the matter. */
+static void measure(Search *q)
 {
-    Vec3 p = ray_at(q->ray, a), r = ray_at(q->ray, b);
-    const FuncRange box[3] = { { fmin(p.x, r.x), fmax(p.x, r.x) }, { fmin(p.y, r.y), fmax(p.y, r.y) }, { fmin(p.z, r.z), fmax(p.z, r.z) } };
-    FuncRange v;
-    q->cost += q->s->range_cost;
-    if (!func_range(q->s->f, box, &v))
-        return false;
-    return q->sign > 0 ? v.lo > q->s->threshold : v.hi < q->s->threshold;
+    const Ray *ray = q->ray;
+    const double start[3] = { ray->o.x, ray->o.y, ray->o.z }, speed[3] = { ray->d.x, ray->d.y, ray->d.z };
+    double at[FUNC_PIECES + 1];
+    at[0] = q->start;
+    at[FUNC_PIECES] = q->end;
+    for (int step = FUNC_PIECES; step > 1; step /= 2)
+        for (int i = step / 2; i < FUNC_PIECES; i += step)
+            at[i] = (at[i - step / 2] + at[i + step / 2]) / 2;
+    func_pieces(q->s->f, start, speed, at, &q->pieces);
+    q->measured = true;
 }
 
-static Found search(Search *q, const Samples *s, int i, int j, int depth, double *root)
+/* Bounds of the derivatives of f on a halving, whose first piece is given. */
+typedef struct Shape { double steep, bend; } Shape;
+
+static Shape shape_of(const Search *q, int piece, int depth)
+{
+    Shape most = { 0, 0 };
+    for (int i = piece, n = depth < 3 ? FUNC_PIECES >> depth : 1; n > 0; i++, n--) {
+        most.steep = q->pieces.first[i] > most.steep ? q->pieces.first[i] : most.steep;
+        most.bend = q->pieces.second[i] > most.bend ? q->pieces.second[i] : most.bend;
+    }
+    return most;
+}
+
+/* Positive at both ends: also between them? The lowest that the bounds allow is above 0. */
+static bool stays_positive(const Shape *m, double length, double va, double vb)
+{
+    if (va + vb > m->steep * length)
+        return true;
+    double sag = m->bend * length * length / 2, rise = fabs(vb - va);
+    return rise > sag || (va + vb) / 2 - sag / 4 > rise * rise / (4 * sag);
+}
+
+/* Does f fall all the way from a to b, nowhere steeper than the greatest gradient? Then the halvings find the one root. */
+static bool falls(const Search *q, const Shape *m, double length, double va, double vb)
+{
+    double slope = (va - vb) / length, change = m->bend * length / 2;
+    return slope > change && slope + change <= q->gradient * q->speed;
+}
+
+/* A root between a and b, where f has been asked: va >= 0 > vb. Its neighbours' values and the bend say that it is between lo and hi. */
+typedef struct Bracket { double a, va, b, vb, lo, hi; } Bracket;
+
+static void bracket_put(Bracket *k, double t, double v)
+{
+    if (v < 0) {
+        k->b = t;
+        k->vb = v;
+    } else {
+        k->a = t;
+        k->va = v;
+    }
+}
+
+/* One point: in turn where a line through both ends meets 0, and the far end of what is left. */
+static void ask_one(const Search *q, Bracket *k, bool far_end)
+{
+    double t = k->a + k->va * ((k->b - k->a) / (k->va - k->vb));
+    if (far_end)
+        t = k->va < -k->vb ? k->hi : k->lo;
+    t = t < k->lo ? k->lo : t > k->hi ? k->hi : t;
+    bracket_put(k, t, q->sign * value_at(q, t));
+}
+
+static void ask_row(Search *q, Bracket *k)
+{
+    enum { N = 8 };
+    Samples s = { .n = N };
+    for (int i = 0; i < N; i++)
+        s.t[i] = k->lo + (k->hi - k->lo) * ((i + 1) / (N + 1.0));
+    fill(q, &s, 0, N);
+    int i = 0;
+    while (i < N - 1 && q->sign * s.v[i] >= 0)
+        i++;
+    if (i > 0)
+        bracket_put(k, s.t[i - 1], q->sign * s.v[i - 1]);
+    bracket_put(k, s.t[i], q->sign * s.v[i]);
+}
+
+/* Where f falls from a to b: the end of the smallest halving with the root, as if all had been looked at. Halvings ask f only
+ * while their middle is not on a known side of it. */
+static double fall(Search *q, double a, double va, double b, double vb, double bend, int depth)
+{
+    enum { TURNS = 8 };
+    Bracket k = { a, va, b, vb, a, b };
+    for (int turn = 0; turn < TURNS; turn++) {
+        double slope = (k.va - k.vb) / (k.b - k.a), change = bend * (k.b - k.a) / 2, steep = slope + change, flat = slope - change;
+        k.lo = greater(k.lo, greater(k.a + k.va / steep, k.b + k.vb / flat));
+        k.hi = lesser(k.hi, lesser(k.a + k.va / flat, k.b + k.vb / steep));
+        if (!(k.hi - k.lo > q->accuracy / 4))
+            break;
+        if (q->s->levels > 1)
+            ask_row(q, &k);
+        else
+            ask_one(q, &k, turn % 2 != 0);
+    }
+    for (; b - a >= q->accuracy && depth < MAX_HALVINGS; depth++) {
+        double middle = (a + b) / 2;
+        if (middle <= k.lo || (middle < k.hi && q->sign * value_at(q, middle) >= 0))
+            k.lo = greater(k.lo, a = middle);
+        else
+            k.hi = lesser(k.hi, b = middle);
+    }
+    return b;
+}
+
+static Found search(Search *q, const Samples *s, int i, int j, int depth, int piece, double *root)
 {
     double a = s->t[i], b = s->t[j], va = q->sign * s->v[i], vb = q->sign * s->v[j];
     if (b - a < q->accuracy || depth == MAX_HALVINGS) {
@@ -192,16 +289,25 @@ static Found search(Search *q, const Samples *s, int i, int j, int depth, double
         return NONE;
     Samples closer;
     if (j - i == 1) {
-        if (depth <= q->s->ranged && keeps_sign(q, a, b))
-            return NONE;
+        if (!q->measured && depth >= 2 && !q->s->evaluates)
+            measure(q);
+        if (q->measured && va > 0) {
+            Shape most = shape_of(q, piece, depth);
+            if (vb > 0 && stays_positive(&most, b - a, va, vb))
+                return NONE;
+            if (vb < 0 && falls(q, &most, b - a, va, vb)) {
+                *root = fall(q, a, va, b, vb, most.bend, depth);
+                return ROOT;
+            }
+        }
         look_closer(q, &closer, s, i);
         s = &closer;
         i = 0;
         j = closer.n;
     }
-    int middle = (i + j) / 2;
-    Found found = search(q, s, i, middle, depth + 1, root);
-    return found != NONE ? found : search(q, s, middle, j, depth + 1, root);
+    int middle = (i + j) / 2, half = depth < 3 ? FUNC_PIECES / 2 >> depth : 0;
+    Found found = search(q, s, i, middle, depth + 1, piece, root);
+    return found != NONE ? found : search(q, s, middle, j, depth + 1, piece + half, root);
 }
 
 static void report_roots(Search *q, Samples *s, int left, HitSink *sink)
@@ -210,7 +316,10 @@ static void report_roots(Search *q, Samples *s, int left, HitSink *sink)
     for (; left > 0; left--) {
         if (q->s->evaluates && q->gradient > q->s->evaluate[0])
             q->gradient *= q->s->evaluate[2];
-        if (search(q, s, 0, s->n, 0, &root) != ROOT)
+        q->start = s->t[0];
+        q->end = end;
+        q->measured = false;
+        if (search(q, s, 0, s->n, 0, 0, &root) != ROOT)
             return;
         hit_add(sink, root, 0);
         double next = root + 5 * q->accuracy;
@@ -279,51 +388,6 @@ static void surface(const void *shape, const Hit *hit, Surface *out)
         out->normal = vec3(1, 0, 0);
 }
 
-/* What the search along a chord of the container costs; k picks the chord. */
-static double chord_cost(const Isosurface *s, unsigned k)
-{
-    const Bounds *box = &s->container.box;
-    unsigned state = k * 7919 + 1;
-    double f[6];
-    for (int i = 0; i < 6; i++)
-        f[i] = noise_sample(&state) / 32768.0;
-    Vec3 size = sub(box->hi, box->lo);
-    Vec3 middle = add(box->lo, mul(size, vec3(f[0], f[1], f[2]))), d = mul(size, vec3(f[3] - 0.5, f[4] - 0.5, f[5] - 0.5));
-    Ray ray = { .o = middle, .d = d, .t_max = INFINITY };
-    double t0, t1, root;
-    uint32_t side[2];
-    if (!container_span(&s->container, &ray, &t0, &t1, &side[0], &side[1]) || !(t1 > t0))
-        return 0;
-    Search q = { .s = s, .ray = &ray, .sign = 1, .speed = length(d), .gradient = s->max_gradient };
-    q.accuracy = fmax(s->accuracy / length(affine_vector(&s->place, d)) * s->scene_unit, (t1 - t0) / 4096);
-    Samples samples;
-    look(&q, &samples, t0, t1);
-    q.sign = samples.v[0] < 0 ? -1 : 1;
-    search(&q, &samples, 0, samples.n, 0, &root);
-    return q.cost;
-}
-
-/* Do ranges save time, and how deep? Counted on some chords; the answer changes no picture. */
-static void choose_ranged(Isosurface *s)
-{
-    enum { CHORDS = 16, DEEPEST = 11 };
-    double best = INFINITY;
-    int chosen = -1;
-    s->value_cost = func_cost(s->f);
-    s->row_cost = 2 * s->value_cost;
-    s->range_cost = 6 * func_length(s->f);
-    for (s->ranged = -1; s->ranged <= DEEPEST && !s->evaluates; s->ranged += 3) {
-        double cost = 0;
-        for (unsigned k = 0; k < CHORDS && cost < best; k++)
-            cost += chord_cost(s, k);
-        if (cost < best * 0.9) {
-            best = cost;
-            chosen = s->ranged;
-        }
-    }
-    s->ranged = chosen;
-}
-
 static void compile(ShapeBuild *b, const void *params)
 {
     Isosurface *s = build_data(b, sizeof *s);
@@ -332,7 +396,6 @@ static void compile(ShapeBuild *b, const void *params)
     s->place = b->place;
     s->scene_unit = b->unit;
     s->levels = func_is_cheap(s->f) ? MAX_LEVELS : 1;
-    choose_ranged(s);
     build_prim(b, s, &b->place, shape_padded(s->container.box));
 }
 

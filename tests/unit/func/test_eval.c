@@ -178,7 +178,41 @@ static void hosts_give_components(void **state)
     arena_free(&arena);
 }
 
-static void ranges_hold_every_value(void **state)
+/* f along a line, its slopes and second differences between random points of each piece. */
+static int check_pieces(const Function *f, unsigned *seed, double length)
+{
+    double start[3], speed[3], at[FUNC_PIECES + 1];
+    int known = 0;
+    for (int k = 0; k < 3; k++) {
+        start[k] = random_number(seed) * 3;
+        speed[k] = random_number(seed);
+    }
+    for (int i = 0; i <= FUNC_PIECES; i++)
+        at[i] = length * i;
+    FuncPieces out;
+    func_pieces(f, start, speed, at, &out);
+    for (int i = 0; i < FUNC_PIECES; i++) {
+        if (!isfinite(out.first[i]))
+            continue;
+        known++;
+        for (int turn = 0; turn < 20; turn++) {
+            double t[3], v[3], u = noise_sample(seed) / 32768.0, w = noise_sample(seed) / 32768.0;
+            t[0] = at[i] + length * (u < w ? u : w);
+            t[2] = at[i] + length * (u < w ? w : u);
+            t[1] = (t[0] + t[2]) / 2;
+            for (int m = 0; m < 3; m++)
+                v[m] = func_call(f, (const double[]){ start[0] + t[m] * speed[0], start[1] + t[m] * speed[1], start[2] + t[m] * speed[2] });
+            double h = t[2] - t[0], slack = 1e-12 * (1 + fabs(v[0]) + fabs(v[2]) + out.first[i]);
+            if (!(fabs(v[2] - v[0]) <= out.first[i] * h + slack))
+                fail_msg("steeper than %g: from %.17g to %.17g within %g", out.first[i], v[0], v[2], h);
+            if (isfinite(out.second[i]) && !(fabs(v[0] - 2 * v[1] + v[2]) <= out.second[i] * h * h / 4 + slack))
+                fail_msg("more curved than %g: %.17g, %.17g, %.17g within %g", out.second[i], v[0], v[1], v[2], h);
+        }
+    }
+    return known;
+}
+
+static void pieces_bound_slope_and_curvature(void **state)
 {
     (void)state;
     unsigned seed = 6;
@@ -187,28 +221,31 @@ static void ranges_hold_every_value(void **state)
         Arena arena;
         arena_init(&arena);
         FuncBuilder *b = func_builder(&arena, 3);
-        const Function *f = func_finish(b, random_tree(b, &seed, 5));
-        FuncRange p[3], range;
-        for (int k = 0; k < 3; k++) {
-            double x = random_number(&seed) * 3, w = tree % 2 ? fabs(random_number(&seed)) : 1e-3;
-            p[k] = (FuncRange){ x, x + w };
-        }
-        if (func_range(f, p, &range)) {
-            known++;
-            for (int i = 0; i < 30; i++) {
-                double a[3];
-                for (int k = 0; k < 3; k++) {
-                    double t = i < 2 ? i : noise_sample(&seed) / 32768.0;
-                    a[k] = fmin(p[k].lo + t * (p[k].hi - p[k].lo), p[k].hi);
-                }
-                double v = func_call(f, a);
-                if (v < range.lo || v > range.hi)
-                    fail_msg("tree %d: %.17g is not within %.17g and %.17g", tree, v, range.lo, range.hi);
-            }
-        }
+        known += check_pieces(func_finish(b, random_tree(b, &seed, 5)), &seed, tree % 2 ? 0.3 : 1e-3);
         arena_free(&arena);
     }
-    assert_true(known > 1000);
+    assert_true(known > 3000);
+}
+
+static void pieces_bound_noise_and_whole_waves_around_an_axis(void **state)
+{
+    (void)state;
+    unsigned seed = 7;
+    Arena arena;
+    arena_init(&arena);
+    for (int kind = 1; kind <= 3; kind++)
+        for (int i = 0; i < 200; i++)
+            assert_int_equal(check_pieces(func_internal(&arena, 76, &kind), &seed, 0.1), FUNC_PIECES);
+    FuncBuilder *b = func_builder(&arena, 3);
+    FuncNode angle = func_binary(b, FUNC_ATAN2, func_parameter(b, 0), func_parameter(b, 2));
+    const Function *waves = func_finish(b, func_unary(b, FUNC_SIN, func_binary(b, FUNC_MUL, angle, func_number(b, 12))));
+    FuncPieces out;
+    const double at[FUNC_PIECES + 1] = { 0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8 };
+    func_pieces(waves, (const double[]){ -0.35, 0, -1 }, (const double[]){ 1, 0, 0 }, at, &out);      /* over the cut of atan2 */
+    assert_true(out.first[3] < 13 && out.second[3] < 300);
+    func_pieces(func_finish(b, angle), (const double[]){ -0.35, 0, -1 }, (const double[]){ 1, 0, 0 }, at, &out);
+    assert_true(out.first[2] < 2 && isinf(out.first[3]));
+    arena_free(&arena);
 }
 
 int main(void)
@@ -220,7 +257,8 @@ int main(void)
         cmocka_unit_test(calls_give_what_the_callee_gives),
         cmocka_unit_test(calls_that_nest_too_deep_are_refused),
         cmocka_unit_test(hosts_give_components),
-        cmocka_unit_test(ranges_hold_every_value),
+        cmocka_unit_test(pieces_bound_slope_and_curvature),
+        cmocka_unit_test(pieces_bound_noise_and_whole_waves_around_an_axis),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
