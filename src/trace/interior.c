@@ -12,7 +12,8 @@ void interiors_add(Interiors *list, uint32_t interior)
 void interiors_remove(Interiors *list, uint32_t place)
 {
     list->n--;
-    memmove(&list->at[place], &list->at[place + 1], (list->n - place) * sizeof list->at[0]);
+    if (place < list->n)                       /* mostly it is the last */
+        memmove(&list->at[place], &list->at[place + 1], (list->n - place) * sizeof list->at[0]);
 }
 
 int interiors_find(const Interiors *list, uint32_t interior)
@@ -42,17 +43,25 @@ double interior_ratio(const World *w, const Interiors *list, uint32_t interior)
     return list->n == 1 ? 1 / ior : last / ior;
 }
 
-/* POV: fade_power of 1000 and more means exponential decay. */
-static float fade(float colour, double x, double power)
+static float fade(float colour, double x)
 {
-    if (power >= 1000)
-        return (float)exp(-(1 - (double)colour) * x);
-    return (float)(colour + (1 - (double)colour) / (1 + pow(x, power)));
+    return (float)(colour + (1 - (double)colour) / (1 + x));
 }
 
+static float decay(float colour, double x)
+{
+    return (float)exp(-(1 - (double)colour) * x);
+}
+
+/* POV: fade_power of 1000 and more means exponential decay. */
 Rgb interior_fade(const Interior *i, double depth)
 {
     double x = depth / i->fade_distance;
-    return rgb(fade(i->fade_colour.r, x, i->fade_power), fade(i->fade_colour.g, x, i->fade_power),
-               fade(i->fade_colour.b, x, i->fade_power));
+    Rgb c = i->fade_colour;
+    if (i->fade_power >= 1000) {
+        float r = decay(c.r, x), g = c.g == c.r ? r : decay(c.g, x);   /* an exponential is dear: greys need one */
+        return rgb(r, g, c.b == c.g ? g : decay(c.b, x));
+    }
+    x = pow(x, (double)i->fade_power);
+    return rgb(fade(c.r, x), fade(c.g, x), fade(c.b, x));
 }

@@ -77,7 +77,8 @@ static Rgb reflectivity(const Shade *s, const Layer *layer)
 /* Rays are given up by the most that a finish may reflect, unless that depends on the angle by its nature. */
 static double mirror_weight(const Finish *f, Rgb share)
 {
-    return (double)(f->reflection_fresnel ? rgb_max(share) : fmaxf(rgb_max(f->reflection_max), rgb_max(f->reflection_min)));
+    float most = rgb_max(f->reflection_max), least = rgb_max(f->reflection_min);
+    return (double)(f->reflection_fresnel ? rgb_max(share) : most > least ? most : least);
 }
 
 static Rgb mirror_light(const Shade *s, const Mirror *m)
