@@ -492,7 +492,7 @@ Rgb media_dims_air(Tracer *t, Vec3 o, Vec3 d, double depth)
 
 Rgb media_dims_bodies(Tracer *t, const Interiors *in, Vec3 o, Vec3 d, double depth)
 {
-    if (!t->tracing->has_media || in->n == 0 || !interiors_hollow(t->world, in))
+    if (in->n == 0 || !interiors_hollow(t->world, in))
         return rgb_grey(1);
     Stretch s;
     stretch_start(&s, t, o, d, depth, NULL);

@@ -53,6 +53,8 @@ struct Tracing {
     bool alpha, legacy;                        /* legacy: the scene speaks a language before 3.7 */
     const TextureLeaf *flat;                   /* per texture of the World: all there is of a flat one; top NULL: of others */
     Rgb ambient_light;                         /* none under radiosity, but in old scenes */
+    bool plain_sky;                            /* the same all round: */
+    Colour sky[2];                             /* not seen through, and seen through */
     Colour background;                         /* as the sky shows it */
     bool wants_uv;                             /* some texture or object maps by uv */
     double to_scene;                           /* 1 / world->unit */
@@ -131,6 +133,15 @@ typedef struct Shade {
     Rgb light[LIGHTS_REMEMBERED];
     Colour sum;
 } Shade;
+
+/* What textures may ask of a hit. */
+static inline TextureContext texture_context(const Tracing *tracing, const Surface *surface, Vec3 d)
+{
+    const Globals *globals = &tracing->world->globals;
+    return (TextureContext){ .point = scaled(surface->p, tracing->to_scene), .ray = d, .normal = surface->normal, .uv = surface->uv,
+                             .hit = true, .quality = tracing->quality, .number_of_waves = globals->number_of_waves,
+                             .noise_generator = globals->noise_generator };
+}
 
 /* A finish at work: one layer of a leaf. */
 typedef struct Layer {

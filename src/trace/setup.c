@@ -184,6 +184,9 @@ const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha
     tracing->alpha = alpha;
     tracing->legacy = w->globals.version < 370;
     tracing->background = background_of(w, alpha, tracing->legacy);
+    tracing->plain_sky = w->scene->sky_sphere == NULL;
+    for (int through = 0; tracing->plain_sky && through < 2; through++)
+        tracing->sky[through] = sky_colour(tracing, vec3(0, 0, 1), through == 1);
     tracing->wants_uv = world_wants_uv(w);
     tracing->to_scene = 1 / w->unit;
     tracing->max_level = w->globals.max_trace_level < 1 ? 1 : w->globals.max_trace_level;

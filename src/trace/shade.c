@@ -12,7 +12,7 @@ typedef struct Mirror {
 typedef struct Mirrors {
     uint32_t n;
     Rgb rest;                                  /* reflected by layers that found no room here */
-    Mirror mirror[MIRRORS_MAX];
+    Mirror mirror[MIRRORS_MAX + 1];            /* the last is never kept */
 } Mirrors;
 
 typedef struct Around {                        /* light from all around, gathered once for all layers */
@@ -35,7 +35,8 @@ static double fresnel(double q, double cosine)
         return 1;
     double g = sqrt(s), minus = g - cosine, plus = g + cosine;
     double a = minus / plus, b = (cosine * plus - 1) / (cosine * minus + 1);
-    return fmin(1, fmax(0, 0.5 * a * a * (1 + b * b)));
+    double share = 0.5 * a * a * (1 + b * b);
+    return share > 1 ? 1 : share > 0 ? share : 0;
 }
 
 static Rgb mix(Rgb low, Rgb high, double x)
@@ -51,8 +52,6 @@ static inline bool mirrors_light(const Finish *f)
 static Rgb reflectivity(const Shade *s, const Layer *layer)
 {
     const Finish *f = layer->finish;
-    if (!mirrors_light(f))
-        return rgb_grey(0);
     double cosine = -dot(s->path->ray.d, *layer->n);
     Rgb r;
     if (f->reflection_fresnel) {
@@ -98,11 +97,15 @@ static void remember_mirror(const Shade *s, const Layer *layer, Rgb share, doubl
     double weight = s->path->weight * through * mirror_weight(f, share);
     if (shade_gives_up(s, weight) && f->reflection_exponent >= 0)
         return;                                /* black, and a power of black */
-    Mirror m = { { f, *layer->n }, share, weight };
+    Mirror *m = &mirrors->mirror[mirrors->n];
+    m->polish.finish = f;
+    m->polish.n = *layer->n;
+    m->share = share;
+    m->weight = weight;
     if (mirrors->n < MIRRORS_MAX)
-        mirrors->mirror[mirrors->n++] = m;
+        mirrors->n++;
     else
-        mirrors->rest = rgb_add(mirrors->rest, mirror_light(s, &m));
+        mirrors->rest = rgb_add(mirrors->rest, mirror_light(s, m));
 }
 
 /* ---- one layer ---- */
@@ -174,6 +177,11 @@ static inline void look_at(Shade *s, const TextureLeaf *leaf, const Texture *tex
     out->layer.opacity = (double)opacity(tracing, c);
 }
 
+static inline float kept(float share)          /* of the light that conserves its energy */
+{
+    return 1 - share < 1 ? 1 - share : 1;
+}
+
 static void add_layer(Shade *s, const Look *look, Stack *k, Mirrors *mirrors, Around *around)
 {
     Colour c = look->colour;
@@ -181,15 +189,17 @@ static void add_layer(Shade *s, const Look *look, Stack *k, Mirrors *mirrors, Ar
     if (s->t->tracing->quality <= 1) {
         k->sum = rgb_of(c);
     } else {
-        share = reflectivity(s, &look->layer);
-        remember_mirror(s, &look->layer, share, k->through, mirrors);
+        if (mirrors_light(look->layer.finish)) {
+            share = reflectivity(s, &look->layer);
+            remember_mirror(s, &look->layer, share, k->through, mirrors);
+        }
         k->sum = rgb_add(k->sum, rgb_mul(layer_light(s, &look->layer, k->filter, around), k->filter));
     }
     if (look->found) {
         k->filter = rgb_mul(k->filter, colour_transmittance(c));
         k->filtered = true;
         if (look->layer.finish->conserve_energy)
-            k->filter = rgb_mul(k->filter, rgb(fminf(1, 1 - share.r), fminf(1, 1 - share.g), fminf(1, 1 - share.b)));
+            k->filter = rgb_mul(k->filter, rgb(kept(share.r), kept(share.g), kept(share.b)));
     }
     double grey = fabs((double)rgb_greyness(k->filter));
     k->through = grey < 1 ? grey : 1;
@@ -204,8 +214,12 @@ static bool same_normal(Vec3 a, Vec3 b)
 static void shade_stack(Shade *s, const TextureLeaf *leaf, Look *look)
 {
     double bailout = s->path->ticket->adc_bailout;
-    Stack k = { .filter = rgb_grey(1), .through = 1 };
-    Vec3 top = *look->layer.n;
+    Stack k;
+    k.sum = rgb_grey(0);
+    k.filter = rgb_grey(1);
+    k.through = 1;
+    k.filtered = false;
+    Polish top = { leaf->top->finish, *look->layer.n };
     Around around;                             /* not cleared, as the mirrors: large, and few */
     around.known = false;
     Mirrors mirrors;
@@ -221,9 +235,9 @@ static void shade_stack(Shade *s, const TextureLeaf *leaf, Look *look)
     Colour c = { k.sum.r + mirrors.rest.r, k.sum.g + mirrors.rest.g, k.sum.b + mirrors.rest.b, 0, 0 };
     bool total = false;
     if (k.through > bailout && s->t->tracing->quality >= 6)
-        total = shade_transmit(s, &(Polish){ leaf->top->finish, top }, k.filter, k.filtered, k.through, &c);
+        total = shade_transmit(s, &top, k.filter, k.filtered, k.through, &c);
     for (uint32_t i = 0; i < mirrors.n; i++) {
-        if (total && same_normal(mirrors.mirror[i].polish.n, top))
+        if (total && same_normal(mirrors.mirror[i].polish.n, top.n))
             continue;                          /* the same light came back already */
         Rgb light = mirror_light(s, &mirrors.mirror[i]);
         c = (Colour){ c.r + light.r, c.g + light.g, c.b + light.b, 0, c.t };
@@ -258,17 +272,6 @@ static void shade_leaf(void *user, const TextureLeaf *leaf)
 
 /* ---- a hit ---- */
 
-/* Once per hit: what a normal does to it is seen by the textures that follow. */
-static void context_fill(Shade *s)
-{
-    const Surface *surface = s->surface;
-    const Tracing *tracing = s->t->tracing;
-    const Globals *globals = &s->t->world->globals;
-    s->at = (TextureContext){ .point = scaled(surface->p, tracing->to_scene), .ray = s->path->ray.d, .normal = surface->normal,
-                              .uv = surface->uv, .hit = true, .quality = tracing->quality,
-                              .number_of_waves = globals->number_of_waves, .noise_generator = globals->noise_generator };
-}
-
 static void shade_texture(Shade *s, uint32_t texture)
 {
     const TextureLeaf *flat = &s->t->tracing->flat[texture];
@@ -278,8 +281,8 @@ static void shade_texture(Shade *s, uint32_t texture)
     }
     if (texture == 0)
         return;
-    if (!s->at.hit)
-        context_fill(s);
+    if (!s->at.hit)                            /* once: what a normal does to it is seen by the textures that follow */
+        s->at = texture_context(s->t->tracing, s->surface, s->path->ray.d);
     Vec3 p = s->material->flags & MATERIAL_UV ? vec3(s->surface->uv.u, s->surface->uv.v, 0) : s->at.point;
     texture_resolve(&s->t->world->texture[texture], p, &s->at, shade_leaf, s);
 }

@@ -61,27 +61,53 @@ typedef struct Veil {
     const Surface *surface;
     Vec3 l;
     double caustics;
-    TextureContext at;
+    TextureContext at;                         /* if at.hit: a texture asked for it */
     float weight;                              /* of the texture among several */
     Rgb sum;
 } Veil;
+
+/* Light gathers where it falls straight on the surface. */
+static Rgb caustic(Veil *veil, const TextureLeaf *leaf, const Texture *layer, TextureContext *at, Rgb pass)
+{
+    Vec3 n = texture_layer_normal(leaf, layer, veil->surface->normal, at);
+    return rgb_scaled(pass, (float)(1 + pow(fabs(dot(n, veil->l)), veil->caustics)));
+}
 
 static void pass_leaf(void *user, const TextureLeaf *leaf)
 {
     Veil *veil = user;
     Rgb pass = rgb_grey(1);
-    TextureContext at = veil->at;
+    TextureContext bumpy, *at = &veil->at;
+    if (veil->caustics != 0) {                 /* each leaf begins with the surface's own normal */
+        bumpy = veil->at;
+        at = &bumpy;
+    }
     for (const Texture *layer = leaf->top; layer != NULL; layer = layer->below) {
-        if (veil->caustics != 0) {
-            Vec3 n = texture_layer_normal(leaf, layer, veil->surface->normal, &at);
-            pass = rgb_scaled(pass, (float)(1 + pow(fabs(dot(n, veil->l)), veil->caustics)));
-        }
+        if (veil->caustics != 0)
+            pass = caustic(veil, leaf, layer, at, pass);
         bool found = true;
-        Colour c = texture_layer_colour(leaf, layer, &at, &found);
+        Colour c = texture_layer_colour(leaf, layer, at, &found);
         if (found)
             pass = rgb_mul(pass, colour_transmittance(c));
     }
     veil->sum = rgb_add(veil->sum, rgb_scaled(pass, leaf->weight * veil->weight));
+}
+
+static void pass_texture(Veil *veil, const Material *m, uint32_t texture)
+{
+    const Tracing *tracing = veil->t->tracing;
+    const TextureLeaf *flat = &tracing->flat[texture];
+    if (veil->weight < (float)tracing->ticket.adc_bailout || texture == 0)
+        return;
+    if (flat->top != NULL) {
+        pass_leaf(veil, flat);
+        return;
+    }
+    const Surface *surface = veil->surface;
+    if (!veil->at.hit)
+        veil->at = texture_context(tracing, surface, veil->l);
+    Vec3 p = m->flags & MATERIAL_UV ? vec3(surface->uv.u, surface->uv.v, 0) : veil->at.point;
+    texture_resolve(&tracing->world->texture[texture], p, &veil->at, pass_leaf, veil);
 }
 
 static Rgb surface_passes(Tracer *t, const Ray *ray, const Hit *hit, Surface *surface)
@@ -89,20 +115,20 @@ static Rgb surface_passes(Tracer *t, const Ray *ray, const Hit *hit, Surface *su
     const World *w = t->world;
     const Material *m = &w->material[w->prim[hit->prim].material];
     world_surface(w, ray, hit, t->tracing->wants_uv, surface);
-    Veil veil = { .t = t, .surface = surface, .l = ray->d, .caustics = (double)w->interior[m->interior].interior->caustics };
-    veil.at = (TextureContext){ .point = scaled(surface->p, t->tracing->to_scene), .ray = ray->d, .normal = surface->normal,
-                                .uv = surface->uv, .hit = true, .quality = t->tracing->quality,
-                                .number_of_waves = w->globals.number_of_waves,
-                                .noise_generator = w->globals.noise_generator };
-    Vec3 p = m->flags & MATERIAL_UV ? vec3(surface->uv.u, surface->uv.v, 0) : veil.at.point;
-    uint32_t texture = m->texture;
-    if (surface->back && (m->flags & MATERIAL_HAS_INTERIOR_TEXTURE))
-        texture = m->interior_texture;
-    for (uint32_t i = 0; i < (surface->n_textures > 0 ? surface->n_textures : 1); i++) {
-        veil.weight = surface->n_textures > 0 ? surface->texture[i].weight : 1;
-        uint32_t chosen = surface->n_textures > 0 && surface->texture[i].texture != 0 ? surface->texture[i].texture : texture;
-        if (veil.weight >= (float)t->tracing->ticket.adc_bailout && chosen != 0)
-            texture_resolve(&w->texture[chosen], p, &veil.at, pass_leaf, &veil);
+    Veil veil;                                 /* not cleared: few textures ask for the context */
+    veil.t = t;
+    veil.surface = surface;
+    veil.l = ray->d;
+    veil.caustics = (double)w->interior[m->interior].interior->caustics;
+    veil.at.hit = false;
+    veil.weight = 1;
+    veil.sum = rgb_grey(0);
+    uint32_t texture = surface->back && (m->flags & MATERIAL_HAS_INTERIOR_TEXTURE) ? m->interior_texture : m->texture;
+    if (surface->n_textures == 0)
+        pass_texture(&veil, m, texture);
+    for (uint32_t i = 0; i < surface->n_textures; i++) {
+        veil.weight = surface->texture[i].weight;
+        pass_texture(&veil, m, surface->texture[i].texture != 0 ? surface->texture[i].texture : texture);
     }
     return veil.sum;
 }
@@ -142,15 +168,17 @@ static void pass_surface(Walk *walk, const Hit *hit)
     int place = interiors_find(&walk->in, interior);
     if (place >= 0 && body->fade_power > 0 && body->fade_distance != 0)
         walk->colour = rgb_mul(walk->colour, interior_fade(body, (hit->t - walk->done) * t->tracing->to_scene));
-    walk->colour = rgb_mul(walk->colour, media_dims_bodies(t, &walk->in, ray_at(&walk->ray, walk->done), walk->ray.d,
-                                                           hit->t - walk->done));
+    if (t->tracing->has_media)
+        walk->colour = rgb_mul(walk->colour, media_dims_bodies(t, &walk->in, ray_at(&walk->ray, walk->done), walk->ray.d,
+                                                               hit->t - walk->done));
     dim_by_air(walk, hit->t);
     if (place >= 0)
         interiors_remove(&walk->in, (uint32_t)place);
     else
         interiors_add(&walk->in, interior);
     walk->done = hit->t;
-    walk->clear = hit->t + 2 * surface.error / fmax(fabs(dot(surface.geometric, walk->ray.d)), 0x1p-20);
+    double slope = fabs(dot(surface.geometric, walk->ray.d));
+    walk->clear = hit->t + 2 * surface.error / (slope > 0x1p-20 ? slope : 0x1p-20);
 }
 
 /* Not for a light that an object of the scene has to pass first. */

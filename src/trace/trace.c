@@ -36,7 +36,7 @@ Colour trace_path(Tracer *t, const Path *path)
         c = shade_hit(t, path, &hit, level);
         depth = hit.t;
     } else {
-        c = sky_colour(tracing, path->ray.d, path->alpha);
+        c = tracing->plain_sky ? tracing->sky[path->alpha] : sky_colour(tracing, path->ray.d, path->alpha);
     }
     t->nesting--;
     t->depth = depth;
