@@ -137,6 +137,11 @@ void noise_octaves(int generator, Vec3 p, double first, double step, int n, doub
     kernel->octaves(generator, &p, first, step, n, out);
 }
 
+void noise_vector_octaves(Vec3 p, double first, double step, int n, Vec3 *out)
+{
+    kernel->vector_octaves(&p, first, step, n, out);
+}
+
 double noise_turbulence(int generator, Vec3 p, int octaves, double omega, double lambda)
 {
     return kernel->turbulence(generator, &p, octaves, omega, lambda);

@@ -15,6 +15,7 @@ Vec3 noise_vector(Vec3 p);
 
 /* out[k] = noise at p * first * step^k, k < n (n <= 10). */
 void noise_octaves(int generator, Vec3 p, double first, double step, int n, double *out);
+void noise_vector_octaves(Vec3 p, double first, double step, int n, Vec3 *out);
 
 /* U(p) and V(p) of section 4; octaves 1..10. */
 double noise_turbulence(int generator, Vec3 p, int octaves, double omega, double lambda);

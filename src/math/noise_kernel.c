@@ -268,17 +268,29 @@ static Vec3 vector(const Vec3 *p)
     return vector_at(*p);
 }
 
-static Vec3 vector_turbulence(const Vec3 *p, int n, double omega, double lambda)
+static void vector_octaves(const Vec3 *p, double first, double step, int n, Vec3 *out)
 {
     Spot spot[MAX_OCTAVES];
-    bool near = spots_set(spot, *p, 1, lambda, n);
-    Vec3 sum = near ? spot_vector(&spot[0]) : vector_at(*p);
-    double weight = omega, l = lambda;
-    for (int k = 1; k < n; k++, weight *= omega, l *= lambda)
-        sum = add(sum, scaled(near ? spot_vector(&spot[k]) : vector_at(scaled(*p, l)), weight));
+    if (spots_set(spot, *p, first, step, n))
+        for (int k = 0; k < n; k++)
+            out[k] = spot_vector(&spot[k]);
+    else
+        for (int k = 0; k < n; k++, first *= step)
+            out[k] = vector_at(scaled(*p, first));
+}
+
+static Vec3 vector_turbulence(const Vec3 *p, int n, double omega, double lambda)
+{
+    Vec3 v[MAX_OCTAVES];
+    vector_octaves(p, 1, lambda, n, v);
+    Vec3 sum = v[0];
+    double weight = omega;
+    for (int k = 1; k < n; k++, weight *= omega)
+        sum = add(sum, scaled(v[k], weight));
     return sum;
 }
 
 const NoiseKernel ISA_NAME(noise_kernel)[1] = { {
-    .value = value, .vector = vector, .octaves = octaves, .turbulence = turbulence, .vector_turbulence = vector_turbulence,
+    .value = value, .vector = vector, .octaves = octaves, .vector_octaves = vector_octaves,
+    .turbulence = turbulence, .vector_turbulence = vector_turbulence,
 } };

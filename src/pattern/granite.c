@@ -10,8 +10,10 @@ static double granite(const void *params, const PatternPoint *at)
     int generator = at->pattern->noise_generator;
     double noise[N], sum = 0, weight = 1;
     noise_octaves(generator, at->p, 4, 2, N, noise);
-    for (int i = 0; i < N; i++, weight *= 0.5)
-        sum += weight * (generator >= 2 ? fmin(0.5, fabs(1 - 2 * noise[i])) : fabs(0.5 - noise[i]));
+    for (int i = 0; i < N; i++, weight *= 0.5) {
+        double v = fabs(0.5 - noise[i]);       /* doubled, it is |1 - 2 noise| to the bit */
+        sum += weight * (generator < 2 ? v : v < 0.25 ? 2 * v : 0.5);
+    }
     return sum;
 }
 
@@ -31,10 +33,11 @@ static double wrinkles(const void *params, const PatternPoint *at)
 static Vec3 wrinkle_normal(const void *params, const PatternPoint *at, Vec3 normal, double amount)
 {
     (void)params;
-    Vec3 sum = { 0 };
+    Vec3 noise[WRINKLES], sum = { 0 };
     double scale = 1;
+    noise_vector_octaves(at->p, 1, 2, WRINKLES, noise);
     for (int i = 0; i < WRINKLES; i++, scale *= 2) {
-        Vec3 d = noise_vector(scaled(at->p, scale));
+        Vec3 d = noise[i];
         sum = add(sum, scaled(vec3(fabs(d.x), fabs(d.y), fabs(d.z)), 1 / scale));
     }
     return add(normal, scaled(sum, amount));
