@@ -8,6 +8,9 @@
 #include "pattern/wave.h"
 #include "sdl/parse.h"
 
+/* The search is built once for any metric and once for squares, where all of `part` folds away. */
+#define INLINE static inline __attribute__((always_inline))
+
 typedef struct { Vec3 form; double metric, offset; bool solid; } Crackle;
 
 static void parse(Parser *p, void *params)
@@ -67,7 +70,7 @@ static inline unsigned row_of(const Grid *g, int x, int y)
 }
 
 /* |x|^metric, the part of one axis. */
-static inline double part(double x, double metric)
+INLINE double part(double x, double metric)
 {
     if (metric == 2)
         return x * x;
@@ -83,7 +86,7 @@ static inline double part(double x, double metric)
 }
 
 /* Of two points; a sum that has passed `enough` need not be finished. */
-static inline double measure(Vec3 p, Vec3 q, double metric, double enough)
+INLINE double measure(Vec3 p, Vec3 q, double metric, double enough)
 {
     double s = part(p.x - q.x, metric) + part(p.y - q.y, metric);
     return metric != 2 && s > enough ? s : s + part(p.z - q.z, metric);
@@ -110,15 +113,15 @@ static inline void offer(Near *near, double s, Vec3 q)
  * slack covers the rounding of the points' coordinates. */
 typedef struct Axis { int step[3]; double gap[3]; } Axis;
 
-static inline Axis axis_of(double f, double metric)
+INLINE Axis axis_of(double f, double metric)
 {
     int side = f > 0.5 ? 1 : -1;
-    double low = fmax(0, f) * (1 - 1e-9), high = fmax(0, 1 - f) * (1 - 1e-9);
+    double low = (f > 0 ? f : 0) * (1 - 1e-9), high = (f < 1 ? 1 - f : 0) * (1 - 1e-9);
     return (Axis){ { 0, side, -side }, { 0, part(side > 0 ? high : low, metric), part(side > 0 ? low : high, metric) } };
 }
 
 /* `last`: which of the three smallest is wanted last. What lies farther away than that one so far is passed over; metric > 0. */
-static inline Near near_of(Vec3 p, double metric, int last)
+INLINE Near near_of(Vec3 p, double metric, int last)
 {
     Grid g = grid_of(p);
     Axis ax = axis_of(p.x - g.low.x, metric), ay = axis_of(p.y - g.low.y, metric), az = axis_of(p.z - g.low.z, metric);
