@@ -34,7 +34,7 @@ static double value(const void *params, const PatternPoint *at)
     double turbulence = (double)((const Agate *)params)->turbulence;
     double bend = turbulence * pattern_turbulence(t, at->pattern->noise_generator, at->p);
     double n = (wave_sine(1.3 * bend + 1.1 * at->p.z) + 1) / 2;
-    return n < 0 ? 0 : pow(fmin(1, n), 0.77);
+    return n < 0 ? 0 : pow(n < 1 ? n : 1, 0.77);
 }
 
 const PatternOps pattern_agate = {

@@ -15,7 +15,7 @@ static void gradient_parse(Parser *p, void *params)
 static double gradient(const void *params, const PatternPoint *at)
 {
     double v = dot(at->p, *(const Vec3 *)params);
-    return v > 1 ? fmod(v, 1) : v;
+    return v > 1 ? v - floor(v) : v;
 }
 
 static double from_one(double distance)
@@ -50,7 +50,8 @@ static double boxed(const void *params, const PatternPoint *at)
 static double onion(const void *params, const PatternPoint *at)
 {
     (void)params;
-    return fmod(length(at->p), 1);
+    double v = length(at->p);
+    return v - floor(v);
 }
 
 static double radial(const void *params, const PatternPoint *at)

@@ -32,8 +32,11 @@ double pattern_value(const Pattern *pattern, Vec3 at, const TextureContext *cont
     double v = pattern->ops->value(pattern->params, &point);
     double frequency = (double)pattern->frequency;
     /* POV: the modulus is 1.00001, so each turn loses a little and ramps drift far from the origin. */
-    if (frequency != 0)
-        v = fmod(v * frequency + (double)pattern->phase, 1.00001);
+    if (frequency != 0) {
+        v = v * frequency + (double)pattern->phase;
+        if (!(fabs(v) < 1.00001))              /* rarely: fmod is a call */
+            v = fmod(v, 1.00001);
+    }
     if (v < 0)
         v -= floor(v);
     return wave_value(pattern, v);

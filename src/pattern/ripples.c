@@ -36,7 +36,7 @@ static Walk walk_of(const void *params, const PatternPoint *at)
 }
 
 /* The i-th source, the vector from it to the point, and its length. */
-static Source step(Walk *w, int i, Vec3 *from, double *far)
+static inline __attribute__((always_inline)) Source step(Walk *w, int i, Vec3 *from, double *far)
 {
     Source s = i < KEPT ? w->ripples->source[i] : next_source(i, &w->state);
     *from = sub(w->at->p, s.at);
