@@ -105,14 +105,20 @@ INLINE void run_call(const Instr *i, const uint16_t *argument, double *r, const 
             v[k] = r[argument[i->a + k] * width + l];
         if (i->op == FUNC_NATIVE) {
             d[l] = (*(FuncNative *const *)i->callee)(v);
-        } else if (i->op == FUNC_NOISE) {
-            d[l] = noise_value(*(const int *)i->callee, vec3(v[0], v[1], v[2]));
         } else {
             const FuncHost *host = i->callee;
             host->call(host->data, v, out);
             d[l] = code_part(out, i->c);
         }
     }
+}
+
+INLINE void run_noise(const Instr *i, const uint16_t *argument, double *r, const int width, int n)
+{
+    const double *x = r + argument[i->a] * width, *y = r + argument[i->a + 1] * width, *z = r + argument[i->a + 2] * width;
+    double *d = r + i->dst * width;
+    for (int l = 0; l < n; l++)
+        d[l] = noise_value(*(const int *)i->callee, vec3(x[l], y[l], z[l]));
 }
 
 /* n <= width points; r has their parameters in the first registers. Returns the register row of the value. */
@@ -169,8 +175,9 @@ INLINE const double *run_code(const Function *f, double *r, const int width, int
                 d[l] = k;
             break;
         }
+        case FUNC_NOISE: run_noise(i, f->argument, r, width, n); break;
         case FUNC_SUM: case FUNC_PROD: run_loop(i, f->argument, r, width, n, run); break;
-        case FUNC_CALL: case FUNC_HOST: case FUNC_NATIVE: case FUNC_NOISE: run_call(i, f->argument, r, width, n, run); break;
+        case FUNC_CALL: case FUNC_HOST: case FUNC_NATIVE: run_call(i, f->argument, r, width, n, run); break;
         default: return x;                     /* CODE_END */
         }
     }
