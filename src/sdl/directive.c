@@ -321,6 +321,8 @@ void directive_run(Parser *p, const Token *t)
 {
     if ((t->directive == KW_DECLARE || t->directive == KW_LOCAL) && fast_declare(p, t->directive == KW_LOCAL))
         return;
+    if (t->directive == KW_END && flow_plain_end(p))
+        return;
     ArenaMark mark = { p->temp.block, p->temp.next, p->temp.used };
     bool was = p->suspended;
     p->suspended = false;

@@ -344,7 +344,7 @@ static inline void factor(Fast *f, Num *out)
     any_factor(f, out);
 }
 
-static double of_floats(Fast *f, int kind, double a, double b)
+static inline double of_floats(Fast *f, int kind, double a, double b)
 {
     switch (kind) {
     case TOK_PLUS: return a + b;
@@ -355,18 +355,22 @@ static double of_floats(Fast *f, int kind, double a, double b)
     }
 }
 
-static void operate(Fast *f, int kind, Num *a, Num *b)
+static __attribute__((noinline)) void operate_vectors(Fast *f, int kind, Num *a, Num *b)
 {
-    if (a->terms == 1 && b->terms == 1) {
-        a->v[0] = of_floats(f, kind, a->v[0], b->v[0]);
-        return;
-    }
     if (a->terms != b->terms) {
         num_promote(a, b->terms);
         num_promote(b, a->terms);
     }
     for (int i = 0; i < a->terms; i++)
         a->v[i] = of_floats(f, kind, a->v[i], b->v[i]);
+}
+
+static inline void operate(Fast *f, int kind, Num *a, Num *b)
+{
+    if (a->terms == 1 && b->terms == 1)
+        a->v[0] = of_floats(f, kind, a->v[0], b->v[0]);
+    else
+        operate_vectors(f, kind, a, b);
 }
 
 static void product(Fast *f, Num *out)
@@ -465,13 +469,11 @@ static inline void finish(Parser *p, const Fast *f)
         value_set_number(p, f->target, &(Num){ { f->normal.x, f->normal.y, f->normal.z }, 3 });
 }
 
-/* What comes next certainly ends a sum: no macro or directive that might go on with it. */
+/* What comes next certainly ends a sum: it is no macro or directive that might go on with it. */
 static bool at_end_of_sum(const Fast *f)
 {
-    switch (next_kind(f)) {
-    case TOK_SEMICOLON: case TOK_COMMA: case TOK_RPAREN: case TOK_RBRACKET: case TOK_GREATER: case TOK_CLOSE: return true;
-    default: return false;
-    }
+    int kind = next_kind(f);
+    return kind != TOK_NAME && kind != TOK_HASH && kind != TOK_END;
 }
 
 bool fast_sum(Parser *p, Num *out)

@@ -352,6 +352,36 @@ static void run_end(Parser *p, const Token *t)
     }
 }
 
+/* Most #ends: of what is read now, with a plain condition if it is a #while. */
+bool flow_plain_end(Parser *p)
+{
+    Conditional *c = p->n_conditionals ? &p->conditional[p->n_conditionals - 1] : NULL;
+    if (c == NULL || c->busy || c->reader != p->n_readers - 1 || c->kind == COND_MACRO)
+        return false;
+    if (c->kind == COND_FOR) {
+        Value *v = symbol_value(c->variable);
+        if (!v || v->kind != VALUE_NUMBER || v->terms != 1)
+            return false;
+        v->v[0] += c->step;
+        for_turn(p, c, v->v[0]);
+    } else if (c->kind == COND_WHILE) {
+        Reader *r = cursor_top(p);
+        uint32_t here = r->at;
+        bool again;
+        cursor_stop_check(p);
+        r->at = c->start + 1;
+        if (!fast_condition(p, &again)) {
+            r->at = here;
+            return false;
+        }
+        if (!again)
+            end_loop(p, c->start);
+    } else {
+        p->n_conditionals--;
+    }
+    return true;
+}
+
 /* Leaves the innermost loop or switch, or ends the macro. */
 static void run_break(Parser *p, const Token *t)
 {

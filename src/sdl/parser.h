@@ -180,6 +180,7 @@ static inline int cursor_look(Parser *p)
 
 /* flow.c */
 bool flow_directive(Parser *p, const Token *t);            /* false if it is not one of the flow of control */
+bool flow_plain_end(Parser *p);                /* at #end: false if nothing has been done */
 bool flow_is_defined(Parser *p);               /* (X) or (A[i]) */
 
 /* directive.c */
