@@ -341,24 +341,46 @@ static const char *fast_rgb(Lexer *l, const char *s, bool *filter, bool *transmi
     return class_at(s) == C_LETTER || class_at(s) == C_DIGIT ? NULL : s;
 }
 
-bool lex_vector_literal(Lexer *lexer, bool inside, double out[3])
+static const char *fast_comma(Lexer *l, const char *s)
+{
+    s = fast_blank(l, s);
+    return s < l->end && *s == ',' ? fast_blank(l, s + 1) : s;
+}
+
+/* What may follow without going on with the expression. A letter may be a macro: not here. `<1,2,3> <4` compares only where a
+ * full expression is asked for, and that never comes this way. */
+static bool fast_end(Lexer *l, const char *s)
+{
+    return s < l->end && (*s == ',' || *s == '}' || *s == '<' || *s == ')');
+}
+
+bool lex_vector_literal(Lexer *lexer, LexBefore before, double out[3])
 {
     Lexer l = *lexer;                          /* given up without a trace when anything is unusual */
     const char *s = l.at;
-    if (!inside) {
-        s = fast_blank(&l, s);
+    if (before != LEX_INSIDE) {
+        s = before == LEX_COMMA ? fast_comma(&l, s) : fast_blank(&l, s);
         if (s >= l.end || *s != '<')
             return false;
         s++;
     }
     if (!fast_numbers(&l, &s, 3, out))
         return false;
-    l.at = s;
     s = fast_blank(&l, s);
-    /* What may follow without going on with the expression. A letter may be a macro: not here. */
-    if (s >= l.end || !(*s == ',' || *s == '}' || *s == '<' || *s == ')' || class_at(s) == C_DIGIT))
+    if (!fast_end(&l, s) && !(s < l.end && class_at(s) == C_DIGIT))
         return false;
-    /* `<1,2,3> <4` compares only where a full expression is asked for, and that never comes this way. */
+    l.at = s;
+    *lexer = l;
+    return true;
+}
+
+bool lex_number_literal(Lexer *lexer, LexBefore before, double *out)
+{
+    Lexer l = *lexer;
+    const char *s = before == LEX_COMMA ? fast_comma(&l, l.at) : l.at;
+    s = fast_number(&l, s, out);
+    if (s == NULL || !fast_end(&l, s))
+        return false;
     l.at = s;
     *lexer = l;
     return true;

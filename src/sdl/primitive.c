@@ -169,13 +169,26 @@ bool parse_at_number(Parser *p)
     return kind_starts_number(p);
 }
 
+/* The reader, if what comes next can be read straight from the characters of a file. */
+static Reader *plain_text(Parser *p)
+{
+    Reader *r = &p->reader[p->n_readers - 1];
+    return r->is_file && !p->have ? r : NULL;
+}
+
 double parse_float(Parser *p)
 {
-    return expr_float(p);
+    Reader *r = plain_text(p);
+    double v;
+    return r != NULL && lex_number_literal(&r->lexer, LEX_NOTHING, &v) ? v : expr_float(p);
 }
 
 double parse_next_float(Parser *p)
 {
+    Reader *r = plain_text(p);
+    double v;
+    if (r != NULL && lex_number_literal(&r->lexer, LEX_COMMA, &v))
+        return v;
     parse_comma(p);
     return expr_float(p);
 }
@@ -189,7 +202,7 @@ double parse_optional_float(Parser *p, double otherwise)
 
 int parse_int(Parser *p)
 {
-    double v = expr_float(p);
+    double v = parse_float(p);
     if (v != v)
         fail(p->diag, cursor_loc(p), "expected a whole number, found one that is not a number");
     return v >= 2147483647.0 ? 2147483647 : v <= -2147483648.0 ? -2147483647 - 1 : (int)v;
@@ -227,7 +240,7 @@ Vec3 parse_vec3(Parser *p)
     Reader *r = &p->reader[p->n_readers - 1];
     double v[3];
     bool inside = p->have && p->token.kind == TOK_LESS;
-    if (r->is_file && (inside || !p->have) && lex_vector_literal(&r->lexer, inside, v)) {
+    if (r->is_file && (inside || !p->have) && lex_vector_literal(&r->lexer, inside ? LEX_INSIDE : LEX_NOTHING, v)) {
         p->have = false;
         return vec3(v[0], v[1], v[2]);
     }
@@ -237,6 +250,10 @@ Vec3 parse_vec3(Parser *p)
 
 Vec3 parse_next_vec3(Parser *p)
 {
+    Reader *r = plain_text(p);
+    double v[3];
+    if (r != NULL && lex_vector_literal(&r->lexer, LEX_COMMA, v))
+        return vec3(v[0], v[1], v[2]);
     parse_comma(p);
     return parse_vec3(p);
 }

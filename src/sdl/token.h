@@ -39,9 +39,11 @@ typedef struct Lexer {
 
 void lex_start(Lexer *l, uint16_t source, Str text);       /* skips a UTF-8 mark; then `at` is behind the start */
 void lex_next(Parser *p, Lexer *l, Token *out);
-/* `<a, b, c>` of plain literals, with nothing behind it that could go on with the expression: takes it, or takes nothing.
- * inside: the `<` has been taken already. */
-bool lex_vector_literal(Lexer *l, bool inside, double out[3]);
+/* `<a, b, c>` of plain literals, or one, with nothing behind it that could go on with the expression: takes it, or takes
+ * nothing. */
+typedef enum LexBefore { LEX_NOTHING, LEX_COMMA, LEX_INSIDE } LexBefore;       /* a comma may come first; `<` has been taken already */
+bool lex_vector_literal(Lexer *l, LexBefore before, double out[3]);
+bool lex_number_literal(Lexer *l, LexBefore before, double *out);
 bool lex_numbers_literal(Lexer *l, int n, double *out);     /* n of them, behind a '<' that is still to come: of matrix */
 /* A macro's argument that is a literal float or vector, and the ',' behind it, or before a ')': its terms; 0, nothing taken: another. */
 int lex_argument_literal(Lexer *l, double out[5]);
