@@ -1,8 +1,11 @@
 /* noise.c - builds the tables of noise and picks the kernel for this machine.
  *
  * The tables are made by a congruential generator and by the Mersenne twister (Matsumoto and Nishimura 1998) from fixed
- * seeds, as 06-noise-and-patterns, section 2 tells. They are filled before main, so that no reader needs a lock. */
+ * seeds, as 06-noise-and-patterns, section 2 tells. They are filled before main, so that no reader needs a lock; those of generator
+ * 3, the largest and the one least asked for, at its first use. */
 #include "math/noise.h"
+
+#include <pthread.h>
 
 #include "base/cpu.h"
 #include "math/noise_tables.h"
@@ -58,8 +61,9 @@ static void make_hash(NoiseTables *t)
         t->corner[i] = (uint8_t)(t->hash[i] & 255);
 }
 
-static void make_generator3(NoiseTables *t)
+static void make_generator3(void)
 {
+    NoiseTables *t = &noise_tables;
     unsigned state = 1;
     for (int i = 0; i < 2048; i++) {
         double v[3], n2;
@@ -117,13 +121,20 @@ static void make_random(NoiseTables *t)
 __attribute__((constructor)) static void make_tables(void)
 {
     make_hash(&noise_tables);
-    make_generator3(&noise_tables);
     make_random(&noise_tables);
     kernel = kernels[cpu_isa()];
 }
 
+static void prepare(int generator)
+{
+    static pthread_once_t made = PTHREAD_ONCE_INIT;
+    if (generator == 3)
+        pthread_once(&made, make_generator3);
+}
+
 double noise_value(int generator, Vec3 p)
 {
+    prepare(generator);
     return kernel->value(generator, &p);
 }
 
@@ -134,6 +145,7 @@ Vec3 noise_vector(Vec3 p)
 
 void noise_octaves(int generator, Vec3 p, double first, double step, int n, double *out)
 {
+    prepare(generator);
     kernel->octaves(generator, &p, first, step, n, out);
 }
 
@@ -144,6 +156,7 @@ void noise_vector_octaves(Vec3 p, double first, double step, int n, Vec3 *out)
 
 double noise_turbulence(int generator, Vec3 p, int octaves, double omega, double lambda)
 {
+    prepare(generator);
     return kernel->turbulence(generator, &p, octaves, omega, lambda);
 }
 

@@ -15,7 +15,7 @@ typedef struct NoiseTables {
     double random[NOISE_CELLS + 2];            /* the part of T that hashes reach */
 } NoiseTables;
 
-extern NoiseTables noise_tables;               /* written once, before main */
+extern NoiseTables noise_tables;               /* written once: before main, or at the first use of generator 3 */
 extern const double noise_gradients[267];      /* R */
 
 typedef struct NoiseKernel {

@@ -12,6 +12,14 @@
 
 static const NoiseKernel *const kernels[] = CPU_TABLE(noise_kernel);
 
+/* Kernels read the tables as they are: those of generator 3 are made by its first use. */
+static int make_tables(void **state)
+{
+    (void)state;
+    noise_value(3, vec3(0, 0, 0));
+    return 0;
+}
+
 static void hash_and_permutation_have_their_check_sums(void **state)
 {
     (void)state;
@@ -140,5 +148,5 @@ int main(void)
         cmocka_unit_test(noise_is_continuous_and_within_its_range),
         cmocka_unit_test(points_without_a_place_in_the_lattice_are_harmless),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_tables, NULL);
 }
