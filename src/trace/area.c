@@ -125,30 +125,41 @@ static Between look_between(const Area *a, Shaft *shaft)
 
 /* ---- samples ---- */
 
-/* What gets through to the spot from here. */
-static Rgb seen_from(const Area *a, Vec3 from)
+/* Of a plain shaft: light_towards and shadow_walk without what cannot be there. */
+static bool hidden_from(const Area *a, Vec3 from)
 {
-    Beam beam;
-    light_towards(a->light, from, a->spot->p, &beam);
-    if (!a->plain)
-        return shadow_walk(a->spot, a->index, &beam, a->colour, a->among);
-    Ray ray = { a->ray.o, beam.l, a->ray.t_min, beam.d * LIGHT_END };
-    return shaft_blocks(a->spot->t->world, a->among, &ray) ? rgb_grey(0) : a->colour;
+    Vec3 v = sub(from, a->spot->p);
+    double d = length(v);
+    Ray ray = { a->ray.o, d > 0 ? scaled(v, 1 / d) : a->light->axis, a->ray.t_min, d * LIGHT_END };
+    return shaft_blocks(a->spot->t->world, a->among, &ray);
 }
 
-/* POV: a sample counts as known by its red not being negative. */
-static f4 area_sample(const Area *a, int u, int v)
+static Rgb seen_from(const Area *a, Vec3 from)
+{
+    if (a->plain)
+        return hidden_from(a, from) ? rgb_grey(0) : a->colour;
+    Beam beam;
+    light_towards(a->light, from, a->spot->p, &beam);
+    return shadow_walk(a->spot, a->index, &beam, a->colour, a->among);
+}
+
+static f4 ask(const Area *a, AreaSample *sample, int u, int v)
 {
     Tracer *t = a->spot->t;
-    AreaSample *known = &t->area[u * a->light->def->size2 + v];
-    if (known->stamp == t->area_stamp && known->colour[0] >= 0)
-        return f4_load(known->colour);
     Rgb c = seen_from(a, add(a->light->location, area_sample_place(t, a->light, &a->axes, u, v)));
-    known->stamp = t->area_stamp;
-    known->colour[0] = c.r;
-    known->colour[1] = c.g;
-    known->colour[2] = c.b;
-    return f4_load(known->colour);
+    sample->stamp = t->area_stamp;
+    sample->colour[0] = c.r;
+    sample->colour[1] = c.g;
+    sample->colour[2] = c.b;
+    return f4_load(sample->colour);
+}
+
+/* POV: a sample counts as known by its red not being negative. Most are known: corners are shared. */
+static inline f4 area_sample(const Area *a, int u, int v)
+{
+    const Tracer *t = a->spot->t;
+    AreaSample *sample = &t->area[u * a->light->def->size2 + v];
+    return sample->stamp == t->area_stamp && sample->colour[0] >= 0 ? f4_load(sample->colour) : ask(a, sample, u, v);
 }
 
 static float apart(f4 a, f4 b)

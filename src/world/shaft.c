@@ -69,13 +69,19 @@ void world_shaft(const World *w, Vec3 o, Bounds to, uint32_t skip, Shaft *out)
 /* How far a prim must stay behind the plane through a surface: beyond all rounding, within the error of surfaces. */
 static const double BEHIND = 0x1p-44;
 
-/* The rays lie on its inner side: n . (x - o) <= 0. */
+/* The rays lie on its inner side: n . x <= at. */
 typedef struct Side {
     Vec3 n;
+    double at, size;                           /* n . o; the length of n */
     double clear;                              /* relative to all distances */
 } Side;
 
 enum { N_SIDES = 5 };
+
+static Side side_through(Vec3 o, Vec3 n, double clear)
+{
+    return (Side){ n, dot(n, o), length(n), clear };
+}
 
 static void window_corners(const Window *to, Vec3 o, Vec3 corner[4])
 {
@@ -92,46 +98,49 @@ static void window_sides(const Window *to, Vec3 o, Vec3 up, Side side[N_SIDES])
     window_corners(to, o, c);
     for (int i = 0; i < 4; i++) {
         Vec3 n = cross(c[i], c[(i + 1) % 4]);
-        side[i] = (Side){ dot(n, c[(i + 2) % 4]) > 0 ? negated(n) : n, ASIDE };
+        side[i] = side_through(o, dot(n, c[(i + 2) % 4]) > 0 ? negated(n) : n, ASIDE);
     }
-    side[4] = (Side){ negated(up), BEHIND };
+    side[4] = side_through(o, negated(up), BEHIND);
 }
 
-/* Not below the least n . x of the prim; for unbounded ones perhaps NaN. */
-static double least_along(const World *w, uint32_t index, Vec3 n, double *size)
+/* The prim's box, or all of it by the reach of its shape, is on the outer side. Boxes may be unbounded, their least NaN. */
+static bool stays_beside(const Prim *prim, const Bounds *box, double distance, const Side *side)
 {
-    const Prim *prim = &w->prim[index];
-    Bounds box = w->box[index];
-    double least = n.x * (n.x > 0 ? box.lo.x : box.hi.x) + n.y * (n.y > 0 ? box.lo.y : box.hi.y) +
-                   n.z * (n.z > 0 ? box.lo.z : box.hi.z);
-    *size = length(n) * (max_abs(box.lo) + max_abs(box.hi));
+    Vec3 n = side->n;
+    double least = n.x * (n.x > 0 ? box->lo.x : box->hi.x) + n.y * (n.y > 0 ? box->lo.y : box->hi.y) +
+                   n.z * (n.z > 0 ? box->lo.z : box->hi.z);
+    double size = side->size * distance;
+    if (least - side->at > side->clear * size)
+        return true;
     if (prim->ops->reach == NULL)
-        return least;
+        return false;
     const Affine *place = prim->place;
     double offset = place->identity ? 0 : dot(n, vec3(place->m[3][0], place->m[3][1], place->m[3][2]));
-    double own = offset - prim->ops->reach(prim->data, negated(affine_normal_back(place, n)));
-    *size += fabs(offset);
-    return own > least ? own : least;
+    least = offset - prim->ops->reach(prim->data, negated(affine_normal_back(place, n)));
+    return least - side->at > side->clear * (size + fabs(offset));
 }
 
-static bool stays_beside(const World *w, uint32_t prim, Vec3 o, const Side *side)
+static bool stays_outside_of(const World *w, uint32_t index, Vec3 o, const Side side[N_SIDES])
 {
-    double size, least = least_along(w, prim, side->n, &size);
-    return least - dot(side->n, o) > side->clear * (size + length(side->n) * max_abs(o));
+    const Prim *prim = &w->prim[index];
+    const Bounds *box = &w->box[index];
+    double distance = max_abs(box->lo) + max_abs(box->hi) + max_abs(o);
+    for (int k = N_SIDES - 1; k >= 0; k--)     /* the surface that the rays leave is most often what is in question */
+        if (stays_beside(prim, box, distance, &side[k]))
+            return true;
+    return false;
 }
 
 void shaft_narrow(const World *w, Vec3 o, const Window *to, Vec3 up, Shaft *shaft)
 {
+    if (shaft->n == 0)
+        return;
     Side side[N_SIDES];
     uint32_t n = 0;
     window_sides(to, o, up, side);
-    for (uint32_t i = 0; i < shaft->n; i++) {
-        int k = N_SIDES - 1;                   /* the surface that the rays leave is most often what is in question */
-        while (k >= 0 && !stays_beside(w, shaft->prim[i], o, &side[k]))
-            k--;
-        if (k < 0)
+    for (uint32_t i = 0; i < shaft->n; i++)
+        if (!stays_outside_of(w, shaft->prim[i], o, side))
             shaft->prim[n++] = shaft->prim[i];
-    }
     shaft->n = n;
 }
 
