@@ -112,6 +112,7 @@ static Rgb metallic_tint(float metallic, Rgb colour, double cosine)
 /* What is the same for all lights of a layer. */
 typedef struct Gloss {
     bool any;
+    bool alone;                                /* one highlight, of no more than a million: what fades away adds nothing */
     Vec3 mirrored;                             /* the ray; if there is phong */
     double sharpness;                          /* if there is specular */
 } Gloss;
@@ -122,24 +123,30 @@ typedef struct Lit {                           /* a layer under all lights */
     Gloss gloss;
 } Lit;
 
-static inline Gloss gloss_of(const Shade *s, const Layer *layer)
+static inline void gloss_start(Gloss *g, const Shade *s, const Layer *layer)
 {
     const Finish *f = layer->finish;
-    Gloss g;
-    g.any = (f->phong > 0 || f->specular > 0) && s->path->ticket->bounces == 0;
-    if (!g.any)
-        return g;
+    g->any = (f->phong > 0 || f->specular > 0) && s->path->ticket->bounces == 0;
+    if (!g->any)
+        return;
+    g->alone = f->phong > 0 ? f->phong < 1e6f && !(f->specular > 0) : f->specular < 1e6f;
     if (f->phong > 0)
-        g.mirrored = sub(s->path->ray.d, scaled(*layer->n, 2 * dot(s->path->ray.d, *layer->n)));
+        g->mirrored = sub(s->path->ray.d, scaled(*layer->n, 2 * dot(s->path->ray.d, *layer->n)));
     if (f->specular > 0)
-        g.sharpness = f->roughness != 0 ? 1 / (double)f->roughness : 0;
-    return g;
+        g->sharpness = f->roughness != 0 ? 1 / (double)f->roughness : 0;
+}
+
+/* Is k^power, 0 < k, sure to be less than any float but 0, even a million times? By ln k <= k - 1; spares sharp highlights, which
+ * are black nearly everywhere, their power. */
+static inline bool fades_away(double k, double power)
+{
+    return power * (1 - k) > 120;
 }
 
 static double phong(const Finish *f, const Gloss *gloss, Vec3 l)
 {
     double k = dot(gloss->mirrored, l);
-    if (k <= 0 || !(f->phong_size < 60 || k > 0.0008))
+    if (k <= 0 || !(f->phong_size < 60 || k > 0.0008) || (gloss->alone && fades_away(k, (double)f->phong_size)))
         return 0;
     return (double)f->phong * pow(k, (double)f->phong_size);
 }
@@ -151,7 +158,10 @@ static double specular(const Finish *f, const Gloss *gloss, Vec3 d, Vec3 n, Vec3
     if (k <= 0)
         return 0;
     double size = length(half);
-    return size > 0 ? (double)f->specular * pow(k / size, gloss->sharpness) : 0;
+    if (!(size > 0))
+        return 0;
+    k /= size;
+    return gloss->alone && fades_away(k, gloss->sharpness) ? 0 : (double)f->specular * pow(k, gloss->sharpness);
 }
 
 static inline double diffuse_strength(const Finish *f, bool behind)
@@ -319,7 +329,10 @@ Rgb shade_lights(Shade *s, const Layer *layer)
         return sum;
     const World *w = s->t->world;
     const Material *m = s->material;
-    Lit lit = { s, layer, gloss_of(s, layer) };
+    Lit lit;
+    lit.s = s;
+    lit.layer = layer;
+    gloss_start(&lit.gloss, s, layer);
     uint32_t n_global = m->flags & MATERIAL_NO_GLOBAL_LIGHTS ? 0 : w->n_global_lights;
     for (uint32_t i = 0; i < n_global + m->n_group_lights; i++)
         sum = rgb_add(sum, illuminate(&lit, i < n_global ? i : w->group_light[m->first_group_light + i - n_global]));

@@ -321,5 +321,7 @@ Colour shade_hit(Tracer *t, const Path *path, const Hit *hit, int level)
         shade_texture(&s, texture);
     for (uint32_t i = 0; i < surface.n_textures; i++)
         shade_share(&s, surface.texture[i].texture != 0 ? surface.texture[i].texture : texture, surface.texture[i].weight);
-    return t->tracing->has_media ? media_bodies(t, path, m, hit->t, s.sum) : s.sum;
+    if (t->tracing->has_media)
+        s.sum = media_bodies(t, path, m, hit->t, s.sum);
+    return s.sum;
 }

@@ -21,26 +21,32 @@ static Colour through_air(Tracer *t, const Path *path, double depth, Colour c)
     return c;
 }
 
+static bool worth_following(const Tracer *t, const Path *path)
+{
+    return path->level < path->ticket->max_level && !(path->weight < path->ticket->adc_bailout) && t->nesting < NESTING_MAX;
+}
+
 Colour trace_path(Tracer *t, const Path *path)
 {
     const Tracing *tracing = t->tracing;
     t->depth = FAR_AWAY;
-    if (path->level >= path->ticket->max_level || path->weight < path->ticket->adc_bailout || t->nesting >= NESTING_MAX)
-        return BLACK;
-    int level = path->level + (path->straight ? 0 : 1);
+    Colour c = BLACK;
+    if (!worth_following(t, path))
+        return c;
     Hit hit;
-    t->nesting++;
-    Colour c;
     double depth = FAR_AWAY;
     if (world_nearest(t->world, &path->ray, path->skip, &hit)) {
-        c = shade_hit(t, path, &hit, level);
+        t->nesting++;
+        c = shade_hit(t, path, &hit, path->level + (path->straight ? 0 : 1));
+        t->nesting--;
         depth = hit.t;
     } else {
         c = tracing->plain_sky ? tracing->sky[path->alpha] : sky_colour(tracing, path->ray.d, path->alpha);
     }
-    t->nesting--;
     t->depth = depth;
-    return tracing->has_air ? through_air(t, path, depth, c) : c;
+    if (tracing->has_air)
+        c = through_air(t, path, depth, c);
+    return c;
 }
 
 void tracer_interiors(const Tracer *t, Vec3 p, Interiors *out)
