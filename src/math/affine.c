@@ -130,11 +130,29 @@ Affine affine_frame(Vec3 origin, Vec3 axis, double radius, double length_)
     return affine_then(affine_then(scale, turn), affine_translate(origin));
 }
 
+/* The lanes are columns; the last is idle. */
+typedef double Row __attribute__((vector_size(32)));
+
 static void compose(double out[4][3], const double a[4][3], const double b[4][3])
+{
+    Row r[5];                                  /* of b, and nothing */
+    for (int i = 0; i < 4; i++)
+        r[i] = (Row){ b[i][0], b[i][1], b[i][2], 0 };
+    r[4] = (Row){ 0 };
+    for (int i = 0; i < 4; i++) {
+        Row sum = a[i][0] * r[0] + a[i][1] * r[1] + a[i][2] * r[2] + r[i == 3 ? 3 : 4];
+        for (int j = 0; j < 3; j++)
+            out[i][j] = sum[j];
+    }
+}
+
+static bool is_unit(const double m[4][3])
 {
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 3; j++)
-            out[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j] + (i == 3 ? b[3][j] : 0);
+            if (m[i][j] != (i == j))
+                return false;
+    return true;
 }
 
 Affine affine_then(Affine first, Affine second)
@@ -146,10 +164,7 @@ Affine affine_then(Affine first, Affine second)
     Affine a = { .identity = false };
     compose(a.m, first.m, second.m);
     compose(a.inv, second.inv, first.inv);
-    a.identity = true;                         /* a scale and its undoing meet often: units of shapes and of the World */
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 3; j++)
-            a.identity &= a.m[i][j] == (i == j) && a.inv[i][j] == (i == j);
+    a.identity = is_unit(a.m) && is_unit(a.inv);       /* a scale and its undoing meet often: units of shapes and of the World */
     return a;
 }
 
