@@ -210,8 +210,14 @@ bool number_scan(const char **at, const char *end, double *out)
 
 static char *put_digits(char *out, uint64_t v, int n)
 {
-    for (int i = n; i-- > 0; v /= 10)
-        out[i] = (char)('0' + v % 10);
+    int i = n;
+    for (; i > 1; v /= 100) {                  /* by twos: each division waits for the one before */
+        unsigned two = (unsigned)(v % 100);
+        out[--i] = (char)('0' + two % 10);
+        out[--i] = (char)('0' + two / 10);
+    }
+    if (i == 1)
+        out[0] = (char)('0' + v % 10);
     return out + n;
 }
 
