@@ -1,4 +1,4 @@
-/* piece_kernel.c - how steep and how curved a function can be on pieces of a line, all pieces at once.
+/* piece_kernel.c - how steep and how curved a function can be on pieces of a line, as many pieces at once as there are lanes.
  *
  * Every register holds, per piece, the range of its values and bounds of its first and second derivative by the parameter of the
  * line; each instruction has its rule from calculus. INFINITY is what is not known, or a kink or a jump. Bounds are sums and products
@@ -10,15 +10,23 @@
 
 #define INLINE static inline __attribute__((always_inline))
 
-typedef double Lanes __attribute__((vector_size(8 * FUNC_PIECES)));
-typedef int64_t Mask __attribute__((vector_size(8 * FUNC_PIECES)));
+/* As wide as the processor's own vectors: gcc takes comparisons of wider ones apart. */
+#if defined(__AVX512F__)
+enum { WIDTH = 8 };
+#elif defined(__AVX2__)
+enum { WIDTH = 4 };
+#else
+enum { WIDTH = 2 };
+#endif
+typedef double Lanes __attribute__((vector_size(8 * WIDTH)));
+typedef int64_t Mask __attribute__((vector_size(8 * WIDTH)));
 
 typedef struct Piece {
     Lanes lo, hi;                              /* of the value */
     Lanes first, second;                       /* |derivative| is not more; never NaN */
 } Piece;
 
-enum { MAX_REGISTERS = 200 };                  /* of functions looked at: 256 bytes each on the stack */
+enum { MAX_REGISTERS = 200 };                  /* of functions looked at: up to 256 bytes each on the stack */
 
 INLINE Lanes all(double v) { return (Lanes){ 0 } + v; }
 INLINE Lanes chosen(Mask m, Lanes a, Lanes b) { return (Lanes)((m & (Mask)a) | (~m & (Mask)b)); }
@@ -31,7 +39,7 @@ INLINE Lanes known(Lanes bound) { return chosen(bound == bound, bound, all(INFIN
 INLINE Lanes root(Lanes a)
 {
     Lanes out;
-    for (int i = 0; i < FUNC_PIECES; i++)
+    for (int i = 0; i < WIDTH; i++)
         out[i] = __builtin_sqrt(a[i]);
     return out;
 }
@@ -130,7 +138,7 @@ INLINE Piece angle(Piece a, Piece b, bool turns)
 /* By the C library, piece by piece; g grows and is defined from `from` on. */
 INLINE void ends(double (*g)(double), const Piece *a, double from, Lanes *lo, Lanes *hi)
 {
-    for (int i = 0; i < FUNC_PIECES; i++) {
+    for (int i = 0; i < WIDTH; i++) {
         bool inside = a->lo[i] > from;
         (*lo)[i] = inside ? g(a->lo[i]) : -INFINITY;
         (*hi)[i] = inside ? g(a->hi[i]) : INFINITY;
@@ -158,7 +166,7 @@ static Piece power(Piece a, Piece b)
     if (!(k == b.hi[0]))
         return unknown(-INFINITY, INFINITY);
     Lanes u, v;
-    for (int i = 0; i < FUNC_PIECES; i++) {
+    for (int i = 0; i < WIDTH; i++) {
         u[i] = pow(a.lo[i], k);
         v[i] = pow(a.hi[i], k);
     }
@@ -170,7 +178,7 @@ static Piece power(Piece a, Piece b)
 INLINE Piece stepped(Piece a, double (*g)(double))
 {
     Piece out = unknown(-INFINITY, INFINITY);
-    for (int i = 0; i < FUNC_PIECES; i++) {
+    for (int i = 0; i < WIDTH; i++) {
         out.lo[i] = g(a.lo[i]);
         out.hi[i] = g(a.hi[i]);
     }
@@ -297,22 +305,27 @@ static Piece value_of(const Function *f, Piece *r)
     }
 }
 
+static Piece along(const Function *f, const double *start, const double *speed, const double *at)
+{
+    Piece r[MAX_REGISTERS];
+    Lanes from, to;
+    memcpy(&from, at, sizeof from);
+    memcpy(&to, at + 1, sizeof to);
+    for (int k = 0; k < f->parameters; k++) {
+        Lanes a = start[k] + from * speed[k], b = start[k] + to * speed[k];
+        r[k] = widened((Piece){ lesser(a, b), greater(a, b), all(fabs(speed[k])), all(0) });
+    }
+    return value_of(f, r);
+}
+
 static void bounds(const Function *f, const double *start, const double *speed, const double *at, FuncPieces *out)
 {
-    Piece r[MAX_REGISTERS], v = unknown(-INFINITY, INFINITY);
-    if (f->n_registers <= MAX_REGISTERS) {
-        Lanes from, to;
-        memcpy(&from, at, sizeof from);
-        memcpy(&to, at + 1, sizeof to);
-        for (int k = 0; k < f->parameters; k++) {
-            Lanes a = start[k] + from * speed[k], b = start[k] + to * speed[k];
-            r[k] = widened((Piece){ lesser(a, b), greater(a, b), all(fabs(speed[k])), all(0) });
-        }
-        v = value_of(f, r);
+    for (int i = 0; i < FUNC_PIECES; i += WIDTH) {
+        Piece v = f->n_registers <= MAX_REGISTERS ? along(f, start, speed, at + i) : unknown(-INFINITY, INFINITY);
+        Lanes first = v.first * (1 + 0x1p-30), second = v.second * (1 + 0x1p-30);
+        memcpy(out->first + i, &first, sizeof first);
+        memcpy(out->second + i, &second, sizeof second);
     }
-    Lanes first = v.first * (1 + 0x1p-30), second = v.second * (1 + 0x1p-30);
-    memcpy(out->first, &first, sizeof first);
-    memcpy(out->second, &second, sizeof second);
 }
 
 const PieceKernel ISA_NAME(piece_kernel)[1] = { { .bounds = bounds } };
