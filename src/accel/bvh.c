@@ -311,9 +311,18 @@ static void leave_cells(Builder *k, Range *r)
 
 /* ---- cutting ---- */
 
+/* Two items can be cut in one way only: no bins for a third of all ranges. */
+static uint32_t cut_pair(const Builder *k, const Range *r)
+{
+    float area = box_area(r->box), apart = box_area(item_box(&r->item[0])) + box_area(item_box(&r->item[1]));
+    return area + apart * k->cost < area * 2 * k->cost ? 1 : 0;
+}
+
 /* How many of the range go left of the best plane; 0: better left whole. */
 static uint32_t cut_by_area(const Builder *k, const Range *r)
 {
+    if (r->n == 2 && !r->cells)
+        return cut_pair(k, r);
     Bins bins;
     bins_fill(&bins, r);
     Split s = find_split(&bins, r->total);

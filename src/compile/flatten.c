@@ -169,7 +169,7 @@ static void shape_compile(Compile *c, const Object *o, const Inherited *from, co
     c->all_opaque = true;
     c->no_inside = false;
     ShapeBuild b = { .arena = c->arena, .object = o, .accel = c->w->accel_ops,
-                     .place = shared ? affine_identity() : c->shape_place, .unit = shared ? 1 : c->unit,
+                     .place = shared ? *c->identity : c->shape_place, .unit = shared ? 1 : c->unit,
                      .diag = c->diag, .compile = c };
     if (!shared) {
         o->ops->compile(&b, o->params);

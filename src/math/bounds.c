@@ -66,9 +66,9 @@ Bounds bounds_transformed(Bounds a, const Affine *place)
             if (m == 0)
                 continue;
             double p = m * vec3_at(a.lo, i), q = m * vec3_at(a.hi, i);
-            lo += fmin(p, q);
-            hi += fmax(p, q);
-            size += fmax(fabs(p), fabs(q));
+            lo += p < q ? p : q;
+            hi += p < q ? q : p;
+            size += fabs(p) < fabs(q) ? fabs(q) : fabs(p);
         }
         double pad = isfinite(size) ? size * 8 * DBL_EPSILON : 0;
         vec3_set(&out.lo, j, lo - pad);
