@@ -35,15 +35,6 @@ static bool item(Parser *p, void *params)
     return true;
 }
 
-/* The 54 cubes two steps away along one axis. */
-static const int8_t beyond[54][3] = {
-#define BEYOND(a) \
-    { a, 0, 0 }, { 0, a, 0 }, { 0, 0, a }, { a, -1, 0 }, { a, 1, 0 }, { a, 0, -1 }, { a, 0, 1 }, { -1, a, 0 }, { 1, a, 0 }, \
-    { 0, a, -1 }, { 0, a, 1 }, { -1, 0, a }, { 1, 0, a }, { 0, -1, a }, { 0, 1, a }, { a, -1, -1 }, { a, -1, 1 }, { a, 1, -1 }, \
-    { a, 1, 1 }, { -1, a, -1 }, { -1, a, 1 }, { 1, a, -1 }, { 1, a, 1 }, { -1, -1, a }, { -1, 1, a }, { 1, -1, a }, { 1, 1, a }
-    BEYOND(-2), BEYOND(2),
-};
-
 typedef struct Grid { long long x, y, z; Vec3 low; } Grid;
 
 static inline Grid grid_of(Vec3 p)
@@ -109,6 +100,29 @@ static inline void offer(Near *near, double s, Vec3 q)
     }
 }
 
+/* The nine cubes two steps away along one axis, to one side. */
+INLINE void offer_face(Near *near, Vec3 p, const Grid *g, int axis, int step, double metric)
+{
+    for (int i = -1; i <= 1; i++)
+        for (int j = -1; j <= 1; j++) {
+            int x = axis == 0 ? step : i, y = axis == 1 ? step : axis == 0 ? i : j, z = axis == 2 ? step : j;
+            Vec3 q = point_in(g, row_of(g, x, y), x, y, z);
+            offer(near, measure(p, q, metric, near->s[2]), q);
+        }
+}
+
+/* Of the 54 cubes two steps away along one axis those that may matter. */
+INLINE void offer_beyond(Near *near, Vec3 p, const Grid *g, double metric, int last)
+{
+    Vec3 f = sub(p, g->low);
+    for (int axis = 0; axis < 3; axis++)
+        for (int step = -2; step <= 2; step += 4) {
+            double x = vec3_at(f, axis), gap = step < 0 ? 1 + x : 2 - x;
+            if (part((gap > 1 ? gap : 1) * (1 - 1e-9), metric) <= near->s[last])
+                offer_face(near, p, g, axis, step, metric);
+        }
+}
+
 /* The steps along one axis, near cubes first, and the least part of each in the distance. f: from the low corner of the cube. The
  * slack covers the rounding of the points' coordinates. */
 typedef struct Axis { int step[3]; double gap[3]; } Axis;
@@ -137,11 +151,9 @@ INLINE Near near_of(Vec3 p, double metric, int last)
                 offer(&near, measure(p, q, metric, near.s[2]), q);
             }
         }
-    for (int i = 0; near.s[last] > 1 - 1e-9 && i < 54; i++) {
-        const int8_t *c = beyond[i];
-        Vec3 q = point_in(&g, row_of(&g, c[0], c[1]), c[0], c[1], c[2]);
-        offer(&near, measure(p, q, metric, near.s[2]), q);
-    }
+    if (near.s[last] > 1 - 1e-9)
+        if (near.s[last] > 1 - 1e-9)
+        offer_beyond(&near, p, &g, metric, last);
     return near;
 }
 
@@ -150,11 +162,14 @@ static Near near_of_all(Vec3 p, double metric)
 {
     Grid g = grid_of(p);
     Near near = { .s = { INFINITY, INFINITY, INFINITY } };
-    for (int i = 0; i < 81; i++) {
-        int x = i < 27 ? i % 3 - 1 : beyond[i - 27][0], y = i < 27 ? i / 3 % 3 - 1 : beyond[i - 27][1];
-        int z = i < 27 ? i / 9 - 1 : beyond[i - 27][2];
+    for (int i = 0; i < 27; i++) {
+        int x = i % 3 - 1, y = i / 3 % 3 - 1, z = i / 9 - 1;
         Vec3 q = point_in(&g, row_of(&g, x, y), x, y, z);
         offer(&near, measure(p, q, metric, near.s[2]), q);
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        offer_face(&near, p, &g, axis, -2, metric);
+        offer_face(&near, p, &g, axis, 2, metric);
     }
     return near;
 }
