@@ -6,11 +6,8 @@
 
 Vec3 pattern_point(const Pattern *pattern, Vec3 p)
 {
-    if (pattern->ops == NULL || !(pattern->ops->flags & PATTERN_OWN_TURBULENCE) || !pattern->chain.has_turbulence)
-        return chain_apply(&pattern->chain, p);
-    WarpChain chain = pattern->chain;
-    chain.has_turbulence = false;
-    return chain_apply(&chain, p);
+    bool own = pattern->ops != NULL && (pattern->ops->flags & PATTERN_OWN_TURBULENCE);
+    return own ? chain_apply_warps(&pattern->chain, p) : chain_apply(&pattern->chain, p);
 }
 
 static double wave_value(const Pattern *pattern, double v)

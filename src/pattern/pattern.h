@@ -7,6 +7,7 @@
 
 /* The whole chain, turbulence record included (07, section 3). */
 Vec3 chain_apply(const WarpChain *chain, Vec3 p);
+Vec3 chain_apply_warps(const WarpChain *chain, Vec3 p);                /* without that record */
 
 /* Where the pattern, its map entries and its list items see p: the chain, without the turbulence record for patterns that use it in
  * their own formula alone (marble, wood). */

@@ -159,11 +159,25 @@ static double limited(double x)
     return x > 1e17 ? 1e17 : x < -1e17 ? -1e17 : x;
 }
 
-Vec3 chain_apply(const WarpChain *chain, Vec3 p)
+static Vec3 through_warps(const WarpChain *chain, Vec3 p)
 {
     for (uint32_t i = 0; i < chain->n; i++)
         p = warped(&chain->warp[i], p);
-    if (chain->has_turbulence)
-        p = turbulent(&chain->turbulence, p);
+    return p;
+}
+
+static Vec3 within_limits(Vec3 p)
+{
     return vec3(limited(p.x), limited(p.y), limited(p.z));
+}
+
+Vec3 chain_apply_warps(const WarpChain *chain, Vec3 p)
+{
+    return within_limits(through_warps(chain, p));
+}
+
+Vec3 chain_apply(const WarpChain *chain, Vec3 p)
+{
+    p = through_warps(chain, p);
+    return within_limits(chain->has_turbulence ? turbulent(&chain->turbulence, p) : p);
 }

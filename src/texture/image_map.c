@@ -17,6 +17,12 @@ static double angle_about_y(double x, double z)
     return z < 0 ? 2 * PI - angle : angle;
 }
 
+/* fmod, which is a call and seldom needed. */
+static double remainder_of(double v, double size)
+{
+    return fabs(v) < size ? v : fmod(v, size);
+}
+
 /* (u,v) in pixels, v upwards, before the offset. */
 static bool project(const ImageMap *map, Vec3 p, double width, double height, double *u, double *v)
 {
@@ -34,7 +40,7 @@ static bool project(const ImageMap *map, Vec3 p, double width, double height, do
         if (around == 0 || (map->once && (p.y < 0 || p.y > 1)))
             return false;
         *u = angle_about_y(p.x, p.z) / (2 * PI) * width;
-        *v = fmod(p.y * height, height);
+        *v = remainder_of(p.y * height, height);
         return true;
     case 5: {
         if (around == 0)
@@ -48,8 +54,8 @@ static bool project(const ImageMap *map, Vec3 p, double width, double height, do
     default:
         if (map->once && (p.x < 0 || p.x > 1 || p.y < 0 || p.y > 1))
             return false;
-        *u = fmod(p.x * width, width);
-        *v = fmod(p.y * height, height);
+        *u = remainder_of(p.x * width, width);
+        *v = remainder_of(p.y * height, height);
         return true;
     }
 }
