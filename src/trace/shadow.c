@@ -3,8 +3,6 @@
  * One walk over all that lies between: the first opaque hit ends it, whichever comes first, and transparent ones are collected and
  * multiplied afterwards in their order along the ray. The prim that hid a light last is asked first; that changes no answer, since
  * any opaque blocker means dark. */
-#include <stdlib.h>
-
 #include "trace/path.h"
 
 /* A place in the air may lie on the wall of the body whose media are sampled: the light is not to pass that wall. */
@@ -20,14 +18,24 @@ typedef struct Veils {
     uint32_t blocker;                          /* the opaque prim found */
 } Veils;
 
-static int hit_order(const void *a, const void *b)
+static int hit_order(const Hit *h, const Hit *k)
 {
-    const Hit *h = a, *k = b;
     if (h->t != k->t)
         return h->t < k->t ? -1 : 1;
     if (h->prim != k->prim)
         return h->prim < k->prim ? -1 : 1;
     return h->part < k->part ? -1 : h->part > k->part;
+}
+
+static void sort_hits(Hit *hit, uint32_t n)     /* few */
+{
+    for (uint32_t i = 1; i < n; i++) {
+        Hit h = hit[i];
+        uint32_t at = i;
+        for (; at > 0 && hit_order(&hit[at - 1], &h) > 0; at--)
+            hit[at] = hit[at - 1];
+        hit[at] = h;
+    }
 }
 
 static bool keep_veil(void *user, const Hit *hit)
@@ -218,8 +226,7 @@ __attribute__((noinline)) static Rgb pass_veils(const Spot *spot, uint32_t light
     walk.colour = colour;
     interiors_copy(&walk.in, spot->in);
     for (;;) {
-        if (veils->n > 1)
-            qsort(veils->hit, veils->n, sizeof veils->hit[0], hit_order);
+        sort_hits(veils->hit, veils->n);
         for (uint32_t i = 0; i < veils->n; i++) {
             if (veils->hit[i].t <= walk.clear)
                 continue;                      /* seen as one surface, as rays that go on from it see it */
