@@ -125,41 +125,90 @@ static Between look_between(const Area *a, Shaft *shaft)
 
 /* ---- samples ---- */
 
-/* Of a plain shaft: light_towards and shadow_walk without what cannot be there. */
-static bool hidden_from(const Area *a, Vec3 from)
+/* A ray of a plain shaft, as light_towards and shadow_walk make it where they have no choice. */
+static Ray plain_ray(const Area *a, Vec3 from)
 {
     Vec3 v = sub(from, a->spot->p);
     double d = length(v);
-    Ray ray = { a->ray.o, d > 0 ? scaled(v, 1 / d) : a->light->axis, a->ray.t_min, d * LIGHT_END };
-    return shaft_blocks(a->spot->t->world, a->among, &ray);
+    return (Ray){ a->ray.o, d > 0 ? scaled(v, 1 / d) : a->light->axis, a->ray.t_min, d * LIGHT_END };
+}
+
+static Rgb plain_colour(const Area *a, const Ray *ray)
+{
+    return shaft_blocks(a->spot->t->world, a->among, ray) ? rgb_grey(0) : a->colour;
 }
 
 static Rgb seen_from(const Area *a, Vec3 from)
 {
-    if (a->plain)
-        return hidden_from(a, from) ? rgb_grey(0) : a->colour;
+    if (a->plain) {
+        Ray ray = plain_ray(a, from);
+        return plain_colour(a, &ray);
+    }
     Beam beam;
     light_towards(a->light, from, a->spot->p, &beam);
     return shadow_walk(a->spot, a->index, &beam, a->colour, a->among);
 }
 
-static f4 ask(const Area *a, AreaSample *sample, int u, int v)
+static AreaSample *sample_at(const Area *a, int u, int v)
 {
-    Tracer *t = a->spot->t;
-    Rgb c = seen_from(a, add(a->light->location, area_sample_place(t, a->light, &a->axes, u, v)));
-    sample->stamp = t->area_stamp;
+    return &a->spot->t->area[u * a->light->def->size2 + v];
+}
+
+static Vec3 place_of(const Area *a, int u, int v)
+{
+    return add(a->light->location, area_sample_place(a->spot->t, a->light, &a->axes, u, v));
+}
+
+static void set_sample(AreaSample *sample, Rgb c)
+{
     sample->colour[0] = c.r;
     sample->colour[1] = c.g;
     sample->colour[2] = c.b;
+}
+
+static f4 ask(const Area *a, AreaSample *sample, int u, int v)
+{
+    set_sample(sample, seen_from(a, place_of(a, u, v)));
+    sample->stamp = a->spot->t->area_stamp;
     return f4_load(sample->colour);
 }
 
 /* POV: a sample counts as known by its red not being negative. Most are known: corners are shared. */
 static inline f4 area_sample(const Area *a, int u, int v)
 {
-    const Tracer *t = a->spot->t;
-    AreaSample *sample = &t->area[u * a->light->def->size2 + v];
-    return sample->stamp == t->area_stamp && sample->colour[0] >= 0 ? f4_load(sample->colour) : ask(a, sample, u, v);
+    AreaSample *sample = sample_at(a, u, v);
+    bool known = sample->stamp == a->spot->t->area_stamp && sample->colour[0] >= 0;
+    return known ? f4_load(sample->colour) : ask(a, sample, u, v);
+}
+
+static inline f4 mean(f4 a, f4 b, f4 c, f4 d)
+{
+    return f4_mul(f4_add(f4_add(a, b), f4_add(c, d)), f4_set(0.25f));
+}
+
+/* Three by three samples of a plain shaft, the corners known: the quarters ask for the middle and the middles of the sides, in
+ * this order, and have nothing left to divide. All rays are made first: their roots and quotients then wait for no answer
+ * (4 % of lights/arealit3). */
+static f4 mean_of_nine(const Area *a, int u1, int v1, const f4 c[4])
+{
+    static const int du[5] = { 1, 0, 1, 2, 1 }, dv[5] = { 0, 1, 1, 1, 2 };
+    AreaSample *sample[5], *asked[5];
+    Ray ray[5];
+    int n = 0;
+    for (int i = 0; i < 5; i++) {
+        sample[i] = sample_at(a, u1 + du[i], v1 + dv[i]);
+        if (sample[i]->stamp == a->spot->t->area_stamp)
+            continue;
+        sample[i]->stamp = a->spot->t->area_stamp;
+        asked[n] = sample[i];
+        ray[n++] = plain_ray(a, place_of(a, u1 + du[i], v1 + dv[i]));
+    }
+    for (int i = 0; i < n; i++)
+        set_sample(asked[i], plain_colour(a, &ray[i]));
+    f4 low = f4_load(sample[0]->colour), left = f4_load(sample[1]->colour), middle = f4_load(sample[2]->colour);
+    f4 right = f4_load(sample[3]->colour), high = f4_load(sample[4]->colour);
+    return mean(mean(c[0], low, left, middle), mean(low, c[1], middle, right), mean(left, middle, c[2], high),
+                mean(middle, right, high, c[3]));
 }
 
 static float apart(f4 a, f4 b)
@@ -169,24 +218,29 @@ static float apart(f4 a, f4 b)
     return fabsf(d[0]) + fabsf(d[1]) + fabsf(d[2]);
 }
 
-static bool corners_differ(f4 c0, f4 c1, f4 c2, f4 c3)
+static bool corners_differ(const f4 c[4])
 {
-    if (f4_same(c0, c1) && f4_same(c1, c2) && f4_same(c2, c3))
+    if (f4_same(c[0], c[1]) && f4_same(c[1], c[2]) && f4_same(c[2], c[3]))
         return false;
-    return apart(c0, c1) > 0.1f || apart(c1, c3) > 0.1f || apart(c3, c2) > 0.1f || apart(c2, c0) > 0.1f;
+    return apart(c[0], c[1]) > 0.1f || apart(c[1], c[3]) > 0.1f || apart(c[3], c[2]) > 0.1f || apart(c[2], c[0]) > 0.1f;
 }
 
 static f4 area_mean(const Area *a, int u1, int v1, int u2, int v2, int level)
 {
-    f4 c0 = area_sample(a, u1, v1), c1 = area_sample(a, u2, v1), c2 = area_sample(a, u1, v2), c3 = area_sample(a, u2, v2);
-    if ((u2 - u1 > 1 || v2 - v1 > 1) && (level < a->light->def->adaptive || corners_differ(c0, c1, c2, c3))) {
+    f4 c[4] = { area_sample(a, u1, v1) };
+    c[1] = area_sample(a, u2, v1);
+    c[2] = area_sample(a, u1, v2);
+    c[3] = area_sample(a, u2, v2);
+    if ((u2 - u1 > 1 || v2 - v1 > 1) && (level < a->light->def->adaptive || corners_differ(c))) {
+        if (a->plain && u2 - u1 == 2 && v2 - v1 == 2)
+            return mean_of_nine(a, u1, v1, c);
         int ul = (u1 + u2) / 2, uh = (u1 + u2 + 1) / 2, vl = (v1 + v2) / 2, vh = (v1 + v2 + 1) / 2;
-        c0 = area_mean(a, u1, v1, ul, vl, level + 1);
-        c1 = area_mean(a, uh, v1, u2, vl, level + 1);
-        c2 = area_mean(a, u1, vh, ul, v2, level + 1);
-        c3 = area_mean(a, uh, vh, u2, v2, level + 1);
+        c[0] = area_mean(a, u1, v1, ul, vl, level + 1);
+        c[1] = area_mean(a, uh, v1, u2, vl, level + 1);
+        c[2] = area_mean(a, u1, vh, ul, v2, level + 1);
+        c[3] = area_mean(a, uh, vh, u2, v2, level + 1);
     }
-    return f4_mul(f4_add(f4_add(c0, c1), f4_add(c2, c3)), f4_set(0.25f));
+    return mean(c[0], c[1], c[2], c[3]);
 }
 
 static Rgb mean_of_all(const Area *a)
@@ -221,7 +275,7 @@ Rgb area_visible(const Spot *spot, uint32_t light, Rgb colour)
         return mean_of_equals(&a, rgb_grey(0));
     if (between == BETWEEN_SOME) {
         a.among = &among;
-        a.plain = shaft_is_opaque(spot->t->world, &among) && !shadow_dims(spot->t, source);
+        a.plain = colour.r >= 0 && shaft_is_opaque(spot->t->world, &among) && !shadow_dims(spot->t, source);
         a.ray = shadow_ray(spot, a.l, 0);      /* look_between has seen that all start there */
     }
     return mean_of_all(&a);
