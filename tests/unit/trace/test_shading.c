@@ -218,6 +218,33 @@ static void skies_are_layered_as_measured(void **state)
     }
 }
 
+/* What is known beforehand spares the general way; here each pair takes the one and the other. */
+static void short_ways_lead_to_the_same_bytes(void **state)
+{
+    (void)state;
+    static const char *const pairs[][2] = {
+        { "rgb <.9,.8,.7> } plane { z, 0 pigment { rgb <.5,.8,.3> }",                     /* flat, matte, plain light */
+          "rgb <.9,.8,.7> } plane { z, 0 pigment { rgb <.5,.8,.3> quick_colour rgb 1 }" },
+        { "rgb <.9,.8,.7> } plane { z, 0 pigment { rgb <.5,.8,.3> }",
+          "rgb <.9,.8,.7> } plane { z, 0 pigment { rgb <.5,.8,.3> } finish { reflection 1e-30 }" },
+        { "rgb <.9,.8,.7> } plane { z, 0 pigment { rgb <.5,.8,.3> }",
+          "rgb <.45,.4,.35> fade_distance 1e300 fade_power 2 } plane { z, 0 pigment { rgb <.5,.8,.3> }" },
+        { "rgb 1 } plane { z, 0 pigment { rgb .5 } finish { specular .9 roughness .002 }",
+          "rgb 1 } plane { z, 0 pigment { rgb .5 } finish { specular .9 roughness .002 phong 1e-30 phong_size 1 }" },
+        { "rgb 1 } plane { z, 0 pigment { rgb .5 } } box { <-2,-2,-.2>, <0,2,-.1> pigment { rgbf <.9,.5,.2,.6> }",
+          "rgb 1 } plane { z, 0 pigment { rgb .5 } } box { <-2,-2,-.2>, <0,2,-.1> pigment { rgbf <.9,.5,.2,.6> quick_colour rgb 1 }" },
+    };
+    WhitOptions options = { .width = 8, .height = 6, .threads = 1 };
+    for (size_t i = 0; i < COUNT(pairs); i++) {
+        Picture p[2];
+        for (int k = 0; k < 2; k++)
+            p[k] = picture_of(&options, (const char *[]){ HEAD, FRONT, "light_source { <1,2,-3> ", pairs[i][k], "}", NULL });
+        assert_memory_equal(p[0].image.rgba, p[1].image.rgba, 8 * 6 * 4 * sizeof p[0].image.rgba[0]);
+        picture_free(&p[0]);
+        picture_free(&p[1]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -231,6 +258,7 @@ int main(void)
         cmocka_unit_test(fog_is_as_measured),
         cmocka_unit_test(rainbows_are_as_measured),
         cmocka_unit_test(skies_are_layered_as_measured),
+        cmocka_unit_test(short_ways_lead_to_the_same_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
