@@ -1,8 +1,8 @@
 /* gamma.c - transfer curves, quantising and dither.
  *
  * Without dither the encoded value of a channel only decides which of at most 256 codes it gets, so the curve is inverted once:
- * `step[k]` is the smallest float that gets code k, found by bisecting over the floats themselves. Then a picture costs eight
- * comparisons a channel and no power, with the bits of the direct formula. */
+ * `at[k]` is the smallest float that gets code k, found by bisecting over the floats themselves. Then a picture costs a look-up
+ * and a comparison or two a channel and no power, with the bits of the direct formula. */
 #include "image/gamma.h"
 
 #include <assert.h>
@@ -112,7 +112,24 @@ static uint32_t bits_of(float f)
 
 enum { INFINITE = 0x7f800000 };                /* the bits of it */
 
-typedef struct Steps { float at[257]; } Steps;         /* code k for at[k] <= v < at[k + 1] */
+/* Cells are those of floats with equal upper bits, 64 to the octave from 2^-14 to 1. */
+enum { CELL_BITS = 17, CELL_FIRST = (127 - 14) << 6, CELLS = 14 << 6 };
+
+typedef struct Steps {
+    float at[257];                             /* code k for at[k] <= v < at[k + 1] */
+    uint8_t from[CELLS + 1];                   /* the code of a cell's least float; last that of 1 */
+} Steps;
+
+static void find_cells(Steps *s)
+{
+    int k = 0;
+    for (uint32_t i = 0; i <= CELLS; i++) {
+        float least = float_of_bits((CELL_FIRST + i) << CELL_BITS);
+        while (least >= s->at[k + 1])
+            k++;
+        s->from[i] = (uint8_t)k;
+    }
+}
 
 static void find_steps(const Quantising *q, bool is_alpha, int max, Steps *s)
 {
@@ -141,17 +158,32 @@ static void find_steps(const Quantising *q, bool is_alpha, int max, Steps *s)
         }
         s->at[k] = float_of_bits(high);
     }
+    find_cells(s);
 }
 
-/* guess: a code that may be right, as that of the pixel before often is. */
-static uint16_t step_of(const Steps *s, float v, uint16_t guess)
+static uint16_t step_of(const Steps *s, float v)
 {
-    if (v >= s->at[guess] && !(v >= s->at[guess + 1]))
-        return guess;
-    int k = 0;
-    for (int half = 128; half > 0; half /= 2)
-        k += v >= s->at[k + half] ? half : 0;
-    return (uint16_t)k;                        /* NaN fails every comparison: 0 */
+    uint32_t cell = (bits_of(v) >> CELL_BITS) - CELL_FIRST;
+    int k = cell < CELLS ? s->from[cell] : v >= 1 ? s->from[CELLS] : 0;
+    while (v >= s->at[k + 1])                  /* NaN fails every comparison: 0 */
+        k++;
+    return (uint16_t)k;
+}
+
+static bool repeats(const float *rgba)         /* much of many pictures is of one colour */
+{
+    return memcmp(rgba, rgba - 4, 4 * sizeof *rgba) == 0;
+}
+
+/* Neither grey nor alpha, as most files are: half the work of the general loop below. */
+static void quantise_rgb(const float *rgba, size_t n_pixels, const Steps *s, uint16_t *out)
+{
+    for (size_t p = 0; p < n_pixels; p++, rgba += 4, out += 3)
+        if (p > 0 && repeats(rgba))
+            memcpy(out, out - 3, 3 * sizeof *out);
+        else
+            for (int i = 0; i < 3; i++)
+                out[i] = step_of(s, rgba[i]);
 }
 
 static void quantise_plain(const float *rgba, size_t n_pixels, const Quantising *q, uint16_t *out)
@@ -165,17 +197,20 @@ static void quantise_plain(const float *rgba, size_t n_pixels, const Quantising 
         if (q->alpha)
             find_steps(q, true, max, &alpha);
     }
-    uint16_t last[4] = { 0 };
+    if (by_steps && n == 3) {
+        quantise_rgb(rgba, n_pixels, &colour, out);
+        return;
+    }
     for (size_t p = 0; p < n_pixels; p++, rgba += 4, out += n) {
-        if (p > 0 && memcmp(rgba, rgba - 4, 4 * sizeof *rgba) == 0) {          /* much of many pictures is of one colour */
+        if (p > 0 && repeats(rgba)) {
             memcpy(out, out - n, (size_t)n * sizeof *out);
             continue;
         }
         double v[4];
         channels_of(q, rgba, v);
         for (int i = 0; i < n; i++)
-            out[i] = last[i] = by_steps ? step_of(i < n_colours ? &colour : &alpha, (float)v[i], last[i])
-                                        : code_of(encoded(q, i >= n_colours, (double)(float)v[i]), max);
+            out[i] = by_steps ? step_of(i < n_colours ? &colour : &alpha, (float)v[i])
+                              : code_of(encoded(q, i >= n_colours, (double)(float)v[i]), max);
     }
 }
 
