@@ -47,7 +47,7 @@ static void quick_rounding_has_the_codes_of_the_formula(void **state)
     uint16_t *code = malloc(N * 4 * sizeof *code);
     uint32_t s = 7;
     for (int i = 0; i < N * 4; i++)
-        rgba[i] = i % 5 == 0 ? random_float(&s) * 1e-3f : random_float(&s) * 1.4f - 0.2f;
+        rgba[i] = i % 4 < 2 ? exp2f(-16 * random_float(&s)) : random_float(&s) * 1.4f - 0.2f;
     rgba[0] = NAN;
     rgba[1] = INFINITY;
     rgba[2] = -INFINITY;
