@@ -13,7 +13,7 @@
 enum {
     N_BINS = 16,
     MANY = 1 << 15,                            /* so many items are cheap ones (triangles), and memory counts */
-    LEAF_FEW = 2, LEAF_MANY = 4,               /* a range of so many items may stay whole */
+    LEAF_FEW = 1, LEAF_MANY = 4,               /* a range of so many items may stay whole: calling one costs more than a node */
     DEPTH_BINNED = 40,                         /* below it ranges are halved by count: log8(2^32) more levels at most */
     GRID_FROM = 4096,                          /* a range of more items is sorted into a grid first */
     PER_CELL = 8,                              /* items to a cell, if they filled the space evenly */
@@ -393,14 +393,13 @@ static void build_node(Builder *k, uint32_t index, Range all, int depth)
             node.side[axis][i] = lo[axis];
             node.side[axis + 3][i] = hi[axis];
         }
-        bool leaf = r->whole || r->total <= k->leaf_max;
-        node.count[i] = leaf ? (uint8_t)r->n : 0;
-        node.child[i] = leaf ? (uint32_t)(r->item - k->item) : node_new(k);
+        bool leaf = r->whole || r->total <= k->leaf_max || (r->n == 2 && !r->cells && cut_pair(k, r) == 0);
+        node.child[i] = leaf ? bvh_child((uint32_t)(r->item - k->item), r->n) : bvh_child(node_new(k), 0);
     }
     k->bvh->node[index] = node;
     for (uint32_t i = 0; i < n; i++)
-        if (node.count[i] == 0)
-            build_node(k, node.child[i], range[i], depth + 1);
+        if (bvh_count(node.child[i]) == 0)
+            build_node(k, bvh_at(node.child[i]), range[i], depth + 1);
 }
 
 /* Boxes and growing nodes live in an arena of their own, so that the World keeps only what it walks. */

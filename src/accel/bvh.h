@@ -11,17 +11,17 @@
 enum {
     BVH_WIDTH = 8,
     BVH_MAX_DEPTH = 64,                        /* of wide nodes; bvh.c keeps to it */
-    BVH_STACK = BVH_MAX_DEPTH * (BVH_WIDTH - 1) + 1
+    BVH_STACK = BVH_MAX_DEPTH * (BVH_WIDTH - 1) + 1,
+    BVH_COUNT_BITS = 3                         /* of BvhNode.child */
 };
 
 /* Boxes are the items' own rounded outward and one ulp more: whole-number coordinates round to themselves, and rays along
  * their faces would slip through. Four lines of the cache. */
 typedef struct BvhNode {
     float side[6][BVH_WIDTH];                  /* low x, y, z, then high x, y, z */
-    uint32_t child[BVH_WIDTH];                 /* a node, or a leaf's first place in Bvh.item */
-    uint8_t count[BVH_WIDTH];                  /* items of the leaf; 0: a node */
+    uint32_t child[BVH_WIDTH];                 /* bvh_child: a node, or a leaf's first place in Bvh.item */
     uint32_t used;                             /* bit i: there is a child i */
-    uint32_t unused[5];
+    uint32_t unused[7];
 } BvhNode;
 
 typedef struct Bvh {
@@ -30,6 +30,11 @@ typedef struct Bvh {
     uint32_t n_nodes, n_items;
     CpuIsa isa;
 } Bvh;
+
+/* count: items of the leaf; 0: a node. */
+static inline uint32_t bvh_child(uint32_t at, uint32_t count) { return at << BVH_COUNT_BITS | count; }
+static inline uint32_t bvh_at(uint32_t child) { return child >> BVH_COUNT_BITS; }
+static inline uint32_t bvh_count(uint32_t child) { return child & ((1 << BVH_COUNT_BITS) - 1); }
 
 /* The next float towards zero (away from it) in size; for 0 itself see below. */
 static inline float float_step(float f, int by)
