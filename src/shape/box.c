@@ -48,34 +48,44 @@ static void compile(ShapeBuild *b, const void *params)
     build(b, scaled(box->a, 1 / unit), scaled(box->b, 1 / unit), &place);
 }
 
+/* Where a ray enters and leaves the slabs asked so far. */
+typedef struct Span {
+    double in, out;
+    double in_slope, out_slope;                /* |d| along the axes of these sides; -1: no side yet */
+    uint32_t in_side, out_side;
+} Span;
+
+/* Cuts the span by one more slab; false if the ray runs beside it. An edge belongs to the axis along which the ray is steeper. */
+static inline bool cut(Span *s, const Box *box, uint32_t axis, double o, double d)
+{
+    double lo = box->side[0][axis], hi = box->side[1][axis], slope = fabs(d);
+    if (d == 0)
+        return !(o < lo || o > hi);
+    double a = (lo - o) / d, b = (hi - o) / d;
+    double near = d < 0 ? b : a, far = d < 0 ? a : b;
+    if (near > s->in || (near == s->in && slope > s->in_slope)) {
+        s->in = near;
+        s->in_slope = slope;
+        s->in_side = d < 0 ? axis + 3 : axis;
+    }
+    if (far < s->out || (far == s->out && slope > s->out_slope)) {
+        s->out = far;
+        s->out_slope = slope;
+        s->out_side = d < 0 ? axis : axis + 3;
+    }
+    return true;
+}
+
 static void hits(const void *shape, const Ray *ray, HitSink *sink)
 {
     const Box *box = shape;
-    const double o[3] = { ray->o.x, ray->o.y, ray->o.z }, d[3] = { ray->d.x, ray->d.y, ray->d.z };
-    double t_in = -INFINITY, t_out = INFINITY;
-    int in = -1, out = -1;
-    for (int i = 0; i < 3; i++) {
-        if (d[i] == 0) {
-            if (o[i] < box->side[0][i] || o[i] > box->side[1][i])
-                return;
-            continue;
-        }
-        int near = d[i] < 0;
-        double t0 = (box->side[near][i] - o[i]) / d[i], t1 = (box->side[!near][i] - o[i]) / d[i];
-        /* An edge belongs to the axis along which the ray is steeper. */
-        if (t0 > t_in || (t0 == t_in && fabs(d[i]) > fabs(d[in % 3]))) {
-            t_in = t0;
-            in = i + 3 * near;
-        }
-        if (t1 < t_out || (t1 == t_out && fabs(d[i]) > fabs(d[out % 3]))) {
-            t_out = t1;
-            out = i + 3 * !near;
-        }
-    }
-    if (in < 0 || t_in > t_out)
+    Span s = { -INFINITY, INFINITY, -1, -1, 0, 0 };
+    if (!cut(&s, box, 0, ray->o.x, ray->d.x) || !cut(&s, box, 1, ray->o.y, ray->d.y) || s.in > s.out)
         return;
-    hit_add(sink, t_in, (uint32_t)(in + ENTRY));
-    hit_add(sink, t_out, (uint32_t)out);
+    if (!cut(&s, box, 2, ray->o.z, ray->d.z) || s.in > s.out || s.in_slope < 0)
+        return;
+    hit_add(sink, s.in, s.in_side + ENTRY);
+    hit_add(sink, s.out, s.out_side);
 }
 
 static double reach(const void *shape, Vec3 n)
