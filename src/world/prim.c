@@ -34,7 +34,7 @@ typedef struct Search {
 typedef struct Ask {                           /* "does any child but `self` answer `wanted`?" */
     const World *world;
     uint32_t first, self, skip;
-    Vec3 p;
+    const Vec3 *p;
     bool wanted, yes;
 } Ask;
 
@@ -43,7 +43,7 @@ static bool is_node(uint32_t item)
     return (item & 0x80000000u) != 0;
 }
 
-static bool prim_inside(const Prim *prim, Vec3 p)
+static inline bool prim_inside(const Prim *prim, Vec3 p)
 {
     if ((prim->flags & PRIM_PATCH) || prim->ops->inside == NULL)
         return false;                          /* POV: also when inverted */
@@ -51,11 +51,13 @@ static bool prim_inside(const Prim *prim, Vec3 p)
 }
 
 /* Prims with a flag of `skip` are not asked. */
-static inline bool child_answers(const World *w, uint32_t item, uint32_t self, Vec3 p, bool wanted, uint32_t skip)
+static inline bool child_answers(const World *w, uint32_t item, uint32_t self, const Vec3 *p, bool wanted, uint32_t skip)
 {
-    if (item == self || (!is_node(item) && (w->prim[item].flags & skip)))
+    if (item == self)
         return false;
-    return item_inside(w, item, p) == wanted;
+    if (is_node(item))
+        return item_inside(w, item, *p) == wanted;
+    return !(w->prim[item].flags & skip) && prim_inside(&w->prim[item], *p) == wanted;
 }
 
 static bool ask_child(void *user, uint32_t i, double *t_max)
@@ -67,15 +69,16 @@ static bool ask_child(void *user, uint32_t i, double *t_max)
 }
 
 /* The accelerator holds only children that, outside their box, do not answer what is wanted here. */
-static bool some_child(const World *w, const CsgNode *node, uint32_t self, Vec3 p, bool wanted, uint32_t skip)
+static bool some_child(const World *w, const CsgNode *node, uint32_t self, const Vec3 *p, bool wanted, uint32_t skip)
 {
+    const uint32_t *child = w->csg_child + node->first;
     for (uint32_t i = 0; i < node->n_listed; i++)
-        if (child_answers(w, w->csg_child[node->first + i], self, p, wanted, skip))
+        if (child_answers(w, child[i], self, p, wanted, skip))
             return true;
     if (node->accel == NULL)
         return false;
     Ask ask = { w, node->first + node->n_listed, self, skip, p, wanted, false };
-    w->accel_ops->around(node->accel, p, ask_child, &ask);
+    w->accel_ops->around(node->accel, *p, ask_child, &ask);
     return ask.yes;
 }
 
@@ -90,7 +93,7 @@ bool item_inside(const World *w, uint32_t item, Vec3 p)
         return item_inside(w, w->csg_child[node->first], p);
     if (!bounds_contain(node->box, p))
         return (node->flags & CSG_INVERSE) != 0;
-    return node->op == CSG_ANY ? some_child(w, node, NO_ITEM, p, true, 0) : !some_child(w, node, NO_ITEM, p, false, 0);
+    return node->op == CSG_ANY ? some_child(w, node, NO_ITEM, &p, true, 0) : !some_child(w, node, NO_ITEM, &p, false, 0);
 }
 
 /* ---- which hits count ---- */
@@ -139,7 +142,7 @@ static bool bounds_let_through(const Search *search, uint32_t csg)
 }
 
 /* POV: what a ray does not see hides nothing from it in a merge, but still cuts in an intersection. */
-static bool node_keeps(const World *w, const CsgNode *node, uint32_t self, Vec3 p, uint32_t skip)
+static bool node_keeps(const World *w, const CsgNode *node, uint32_t self, const Vec3 *p, uint32_t skip)
 {
     if (node->flags & CSG_BOUND)
         return true;                           /* as bounds_let_through has found */
@@ -156,7 +159,7 @@ static bool csg_keeps(const Search *search, double t)
     if ((w->prim[self].flags & PRIM_BOXED) && !bounds_contain(w->box[self], p))
         return false;
     for (uint32_t c = search->csg; c != search->above; c = w->csg[c].parent) {
-        if (!node_keeps(w, &w->csg[c], self, p, search->skip))
+        if (!node_keeps(w, &w->csg[c], self, &p, search->skip))
             return false;
         self = ~c;
     }
