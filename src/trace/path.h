@@ -19,6 +19,9 @@ static const double FAR_AWAY = 2e10;
 /* What lies within a few roundings of a light does not hide it: how much of the way to it counts. */
 static const double LIGHT_END = 1 - 0x1p-36;
 
+/* A place in the air may lie on the wall of the body whose media are sampled: the light is not to pass that wall. */
+static const double AIR_START = 0x1p-28;
+
 /* Rays within rays, straight ones counted too. A limit of the stack, far beyond what can be seen. */
 enum { NESTING_MAX = 1000 };
 
@@ -191,7 +194,14 @@ Rgb light_shadowed(const Spot *spot, uint32_t light, const Beam *beam);
 
 /* shadow.c: `colour` as it passes from the light at distance beam->d to the spot. */
 Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour, const Shaft *among);  /* NULL: all prims */
-Ray shadow_ray(const Spot *spot, Vec3 l, double d);
+
+static inline Ray shadow_ray(const Spot *spot, Vec3 l, double d)
+{
+    if (spot->surface != NULL)
+        return (Ray){ surface_offset(spot->surface, l), l, 0, d * LIGHT_END };
+    return (Ray){ spot->p, l, max_abs(spot->p) * AIR_START, d * LIGHT_END };
+}
+
 bool shadow_dims(const Tracer *t, const Light *light);     /* may it grow weaker where it meets no surface? */
 
 /* area.c */

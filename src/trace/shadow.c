@@ -5,9 +5,6 @@
  * any opaque blocker means dark. */
 #include "trace/path.h"
 
-/* A place in the air may lie on the wall of the body whose media are sampled: the light is not to pass that wall. */
-static const double AIR_START = 0x1p-28;
-
 enum { VEILS_MAX = 32 };                       /* transparent hits kept at once; more are walked in further rounds */
 
 typedef struct Veils {
@@ -247,13 +244,6 @@ __attribute__((noinline)) static Rgb pass_veils(const Spot *spot, uint32_t light
 bool shadow_dims(const Tracer *t, const Light *light)
 {
     return t->tracing->air_dims && light->def->media_attenuation && light->def->media_interaction;
-}
-
-Ray shadow_ray(const Spot *spot, Vec3 l, double d)
-{
-    if (spot->surface != NULL)
-        return (Ray){ surface_offset(spot->surface, l), l, 0, d * LIGHT_END };
-    return (Ray){ spot->p, l, max_abs(spot->p) * AIR_START, d * LIGHT_END };
 }
 
 Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour, const Shaft *among)
