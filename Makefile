@@ -1,4 +1,5 @@
-# make            build/whit, build/libwhit.a
+# make            build/whit (LTO=0: sooner, but 6 % slower)
+# make build/libwhit.a
 # make demo       install what is missing, build, render a picture
 # make check      install what the tests need, build, run every test (SAN=1: under ASan and UBSan)
 # make layers     does every file include only rooms further up?
@@ -8,7 +9,10 @@ BUILD   ?= build
 CC      ?= gcc
 WARN    := -Wall -Wextra -Wshadow -Wconversion
 OPT     ?= -O2
-CFLAGS  ?= $(OPT) -g
+ifeq ($(origin CFLAGS),undefined)
+  LTO   ?= 1
+  CFLAGS := $(OPT) -g
+endif
 STD     := -std=c17 -D_GNU_SOURCE -ffp-contract=off -fno-math-errno -Isrc -Iinclude
 LIBS    := -lm -pthread
 SAN     ?= 0
@@ -16,6 +20,7 @@ ifeq ($(SAN),1)
   BUILD := $(BUILD)/san
   CFLAGS += -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
   LDFLAGS += -fsanitize=address,undefined
+  LTO := 0
 endif
 
 # Optional libraries: found by pkg-config. The build works without them, and
@@ -62,7 +67,8 @@ ISA_avx512 := -mavx512f -mavx512vl -mavx512dq -mavx512bw -mprefer-vector-width=5
 
 KERNEL_SRC := $(sort $(wildcard src/*/*_kernel.c))
 LIB_SRC := $(filter-out $(KERNEL_SRC),$(sort $(wildcard src/*/*.c))) src/registry.c
-LIB_OBJ := $(LIB_SRC:%.c=$(BUILD)/%.o) $(foreach isa,$(ISAS),$(KERNEL_SRC:%.c=$(BUILD)/%.$(isa).o))
+KERNEL_OBJ := $(foreach isa,$(ISAS),$(KERNEL_SRC:%.c=$(BUILD)/%.$(isa).o))
+LIB_OBJ := $(LIB_SRC:%.c=$(BUILD)/%.o) $(KERNEL_OBJ)
 TEST_SRC := $(sort $(wildcard tests/unit/*/test_*.c))
 TEST_BIN := $(TEST_SRC:%.c=$(BUILD)/%)
 TEST_LIB := $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/unit/lib/*.c))
@@ -73,8 +79,26 @@ $(BUILD)/libwhit.a: $(LIB_OBJ)
 	@rm -f $@
 	$(AR) rcs $@ $^
 
+# The program is optimised as a whole (-O3 and at link time: 6 % less time), from objects of its own: the tests' programs link
+# libwhit.a's plain ones in no time. LTO=0 makes it of those too, for quick turns; so do compilers that cannot do better (clang
+# without its linker plugin) and SAN=1, and whoever gives CFLAGS of his own.
+ifeq ($(LTO),1)
+  LTO := $(shell echo 'int main(void) { return 0; }' | $(CC) -flto=auto -x c -o /dev/null - 2>/dev/null && echo 1)
+endif
+ifeq ($(LTO),1)
+WHOLE := -O3 -flto=auto
+WHOLE_OBJ := $(patsubst src/%.c,$(BUILD)/whole/%.o,src/main.c $(LIB_SRC))
+
+$(BUILD)/whit: $(WHOLE_OBJ) $(KERNEL_OBJ)
+	+$(CC) $(STD) $(CFLAGS) $(WHOLE) $(LDFLAGS) -o $@ $^ $(LIBS)
+
+$(BUILD)/whole/%.o: src/%.c
+	@mkdir -p $(@D)
+	$(CC) $(STD) $(WARN) $(CFLAGS) $(WHOLE) $(FEATURES) -MMD -MP -c -o $@ $<
+else
 $(BUILD)/whit: $(BUILD)/src/main.o $(BUILD)/libwhit.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
+endif
 
 $(BUILD)/src/%.o: src/%.c
 	@mkdir -p $(@D)
