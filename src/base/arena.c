@@ -1,7 +1,7 @@
 /* arena.c - blocks of doubling size, chained; see arena.h.
  *
- * Large blocks come straight from the system, on huge pages where it has them: a scene of many small things spends more time
- * on faults of small pages than on parsing. Such blocks are born zeroed, and what was never handed out need not be cleared. */
+ * Large blocks come straight from the system: they are born zeroed, and what was never handed out need not be cleared. Huge pages
+ * are not asked for: where a virtual machine gives free ones back to its host, they cost more to get than they save. */
 #include "base/arena.h"
 
 #include <stdio.h>
@@ -11,7 +11,7 @@
 
 #include "base/array.h"
 
-enum { FIRST_BLOCK = 1 << 14, LARGEST_STEP = 1 << 24, SMALL_ALIGN = 16, LARGE_ALIGN = 64, HUGE_PAGE = 1 << 21 };
+enum { FIRST_BLOCK = 1 << 14, LARGEST_STEP = 1 << 24, SMALL_ALIGN = 16, LARGE_ALIGN = 64, MAPPED_FROM = 1 << 21 };
 
 struct ArenaBlock {
     ArenaBlock *older;
@@ -53,12 +53,7 @@ void arena_free(Arena *a)
 static void *map_block(size_t bytes)
 {
     void *b = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (b == MAP_FAILED)
-        return NULL;
-#ifdef MADV_HUGEPAGE
-    madvise(b, bytes, MADV_HUGEPAGE);          /* a wish: no matter if it is not granted */
-#endif
-    return b;
+    return b != MAP_FAILED ? b : NULL;
 }
 
 static void add_block(Arena *a, size_t bytes)
@@ -68,9 +63,7 @@ static void add_block(Arena *a, size_t bytes)
         size = LARGEST_STEP;
     if (size < bytes + LARGE_ALIGN)
         size = bytes + LARGE_ALIGN;
-    bool mapped = size >= HUGE_PAGE;
-    if (mapped)
-        size = ((size + sizeof(ArenaBlock) + HUGE_PAGE - 1) & ~(size_t)(HUGE_PAGE - 1)) - sizeof(ArenaBlock);
+    bool mapped = size >= MAPPED_FROM;
     ArenaBlock *b = mapped ? map_block(sizeof *b + size) : malloc(sizeof *b + size);
     if (!b)
         out_of_memory(a);
