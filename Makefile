@@ -90,7 +90,7 @@ WHOLE := -O3 -flto=auto
 WHOLE_OBJ := $(patsubst src/%.c,$(BUILD)/whole/%.o,src/main.c $(LIB_SRC))
 
 $(BUILD)/whit: $(WHOLE_OBJ) $(KERNEL_OBJ)
-	+$(CC) $(STD) $(CFLAGS) $(WHOLE) $(LDFLAGS) -o $@ $^ $(LIBS)
+	$(CC) $(STD) $(CFLAGS) $(WHOLE) $(LDFLAGS) -o $@ $^ $(LIBS)
 
 $(BUILD)/whole/%.o: src/%.c
 	@mkdir -p $(@D)
