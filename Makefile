@@ -1,4 +1,4 @@
-# make            build/whit (LTO=0: sooner, but 6 % slower)
+# make            build/whit (LTO=0: sooner, but 3 % slower)
 # make build/libwhit.a
 # make demo       install what is missing, build, render a picture
 # make check      install what the tests need, build, run every test (SAN=1: under ASan and UBSan)
@@ -79,7 +79,7 @@ $(BUILD)/libwhit.a: $(LIB_OBJ)
 	@rm -f $@
 	$(AR) rcs $@ $^
 
-# The program is optimised as a whole (-O3 and at link time: 6 % less time), from objects of its own: the tests' programs link
+# The program is optimised as a whole (-O3 and at link time: 3 % less time), from objects of its own: the tests' programs link
 # libwhit.a's plain ones in no time. LTO=0 makes it of those too, for quick turns; so do compilers that cannot do better (clang
 # without its linker plugin) and SAN=1, and whoever gives CFLAGS of his own.
 ifeq ($(LTO),1)
