@@ -36,8 +36,8 @@ int roots_quadratic(double a, double h, double c, double root[2])
         return 1;
     }
     double q = -(h + copysign(sqrt(d), h)), r0 = q / a, r1 = c / q;
-    root[0] = fmin(r0, r1);
-    root[1] = fmax(r0, r1);
+    root[0] = r0 < r1 ? r0 : r1;               /* fmin would be a call */
+    root[1] = r0 < r1 ? r1 : r0;
     return 2;
 }
 

@@ -454,16 +454,13 @@ void world_surface(const World *w, const Ray *ray, const Hit *hit, bool want_uv,
     out->n_textures = 0;
     ops->surface(prim->data, hit, out);
 
-    Vec3 n = out->normal, g = out->geometric;
-    if (is_zero(n))
-        n = g = negated(out->ray_d);           /* the tip of a cone: any normal will do */
-    bool smooth = !is_zero(g);
-    n = normalized(n);
     /* The same arithmetic with and without a place: one that only scales by a power of two must change no bit. */
-    Vec3 across = affine_normal(place, smooth ? normalized(g) : n);
+    Vec3 n = normalized(is_zero(out->normal) ? negated(out->ray_d) : out->normal);     /* the tip of a cone: any will do */
+    bool smooth = !is_zero(out->geometric);
+    Vec3 across = affine_normal(place, smooth ? normalized(out->geometric) : n);
     double stretch = length(across), error = out->error / stretch;
     out->error = error > world_error ? error : world_error;    /* planes a apart become planes a / |across| apart */
-    g = normalized(across);
+    Vec3 g = stretch > 0 ? scaled(across, 1 / stretch) : across;
     n = smooth ? normalized(affine_normal(place, n)) : g;
     if (!place->identity)
         out->p = same_point(out->p, local) ? ray_at(ray, hit->t) : affine_apply(place->m, out->p);
