@@ -1,5 +1,4 @@
-# make            build/whit (LTO=0: sooner, but 3 % slower)
-# make build/libwhit.a
+# make            build/whit, build/libwhit.a
 # make demo       install what is missing, build, render a picture
 # make check      install what the tests need, build, run every test (SAN=1: under ASan and UBSan)
 # make layers     does every file include only rooms further up?
@@ -9,10 +8,7 @@ BUILD   ?= build
 CC      ?= gcc
 WARN    := -Wall -Wextra -Wshadow -Wconversion
 OPT     ?= -O2
-ifeq ($(origin CFLAGS),undefined)
-  LTO   ?= 1
-  CFLAGS := $(OPT) -g
-endif
+CFLAGS  ?= $(OPT) -g
 STD     := -std=c17 -D_GNU_SOURCE -ffp-contract=off -fno-math-errno -Isrc -Iinclude
 LIBS    := -lm -pthread
 SAN     ?= 0
@@ -20,7 +16,6 @@ ifeq ($(SAN),1)
   BUILD := $(BUILD)/san
   CFLAGS += -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
   LDFLAGS += -fsanitize=address,undefined
-  LTO := 0
 endif
 
 # Optional libraries: found by pkg-config. The build works without them, and
@@ -79,26 +74,10 @@ $(BUILD)/libwhit.a: $(LIB_OBJ)
 	@rm -f $@
 	$(AR) rcs $@ $^
 
-# The program is optimised as a whole (-O3 and at link time: 3 % less time), from objects of its own: the tests' programs link
-# libwhit.a's plain ones in no time. LTO=0 makes it of those too, for quick turns; so do compilers that cannot do better (clang
-# without its linker plugin) and SAN=1, and whoever gives CFLAGS of his own.
-ifeq ($(LTO),1)
-  LTO := $(shell echo 'int main(void) { return 0; }' | $(CC) -flto=auto -x c -o /dev/null - 2>/dev/null && echo 1)
-endif
-ifeq ($(LTO),1)
-WHOLE := -O3 -flto=auto
-WHOLE_OBJ := $(patsubst src/%.c,$(BUILD)/whole/%.o,src/main.c $(LIB_SRC))
-
-$(BUILD)/whit: $(WHOLE_OBJ) $(KERNEL_OBJ)
-	$(CC) $(STD) $(CFLAGS) $(WHOLE) $(LDFLAGS) -o $@ $^ $(LIBS)
-
-$(BUILD)/whole/%.o: src/%.c
-	@mkdir -p $(@D)
-	$(CC) $(STD) $(WARN) $(CFLAGS) $(WHOLE) $(FEATURES) -MMD -MP -c -o $@ $<
-else
+# Not optimised at link time: with -O3 that gained 3 %, and changed last bits of pictures (POV-Ray's stackertransp): bytes must not
+# depend on how the program was linked.
 $(BUILD)/whit: $(BUILD)/src/main.o $(BUILD)/libwhit.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
-endif
 
 $(BUILD)/src/%.o: src/%.c
 	@mkdir -p $(@D)
