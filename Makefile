@@ -51,7 +51,7 @@ $(eval $(call late,FONTCONFIG,fontconfig,fontconfig))
 LIBS += -ldl
 
 # *_kernel.c is built once per instruction set, each object exporting names with the set pasted on (base/cpu.h).
-ARCH    := $(shell $(CC) -dumpmachine | cut -d- -f1)
+ARCH    := $(shell $(CC) -dumpmachine 2>/dev/null | cut -d- -f1)
 ISAS    := base
 ifeq ($(ARCH),x86_64)
   ISAS += avx2 avx512
