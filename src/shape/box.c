@@ -138,6 +138,6 @@ static Bounds extent(const void *params, const Affine *place)
 }
 
 const ShapeOps shape_box = {
-    .keyword = "box", .params_size = sizeof(Params), .flags = SHAPE_HAS_UV | SHAPE_CONVEX, .parse = parse, .compile = compile,
+    .keyword = "box", .params_size = sizeof(Params), .flags = SHAPE_HAS_UV | SHAPE_CONVEX | SHAPE_FLAT, .parse = parse, .compile = compile,
     .hits = hits, .reach = reach, .inside = inside, .surface = surface, .extent = extent,
 };

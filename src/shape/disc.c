@@ -67,6 +67,6 @@ static Bounds extent(const void *params, const Affine *place)
 }
 
 const ShapeOps shape_disc = {
-    .keyword = "disc", .params_size = sizeof(Params), .flags = SHAPE_NO_BOX_IN_CSG, .parse = parse, .compile = compile,
+    .keyword = "disc", .params_size = sizeof(Params), .flags = SHAPE_NO_BOX_IN_CSG | SHAPE_FLAT, .parse = parse, .compile = compile,
     .hits = hits, .inside = inside, .surface = surface, .extent = extent,
 };

@@ -78,6 +78,6 @@ static Bounds extent(const void *params, const Affine *place)
 }
 
 const ShapeOps shape_plane = {
-    .keyword = "plane", .params_size = sizeof(Params), .flags = SHAPE_CONVEX, .parse = parse, .compile = compile,
+    .keyword = "plane", .params_size = sizeof(Params), .flags = SHAPE_CONVEX | SHAPE_FLAT, .parse = parse, .compile = compile,
     .hits = hits, .inside = inside, .surface = surface, .half_space = half_space, .extent = extent,
 };

@@ -432,6 +432,18 @@ static double error_at(Vec3 o, Vec3 d, double t)
     return SURFACE_ERROR * (from > along ? from : along);
 }
 
+/* The same arithmetic with and without a place: one that only scales by a power of two must change no bit. */
+static inline void carry_normals(const Affine *place, double world_error, Surface *s, Vec3 *normal, Vec3 *geometric)
+{
+    Vec3 n = normalized(is_zero(s->normal) ? negated(s->ray_d) : s->normal);       /* the tip of a cone: any will do */
+    bool smooth = !is_zero(s->geometric);
+    Vec3 across = affine_normal(place, smooth ? normalized(s->geometric) : n);
+    double stretch = length(across), error = s->error / stretch;
+    s->error = error > world_error ? error : world_error;  /* planes a apart become planes a / |across| apart */
+    *geometric = stretch > 0 ? scaled(across, 1 / stretch) : across;
+    *normal = smooth ? normalized(affine_normal(place, n)) : *geometric;
+}
+
 void world_surface(const World *w, const Ray *ray, const Hit *hit, bool want_uv, Surface *out)
 {
     const Prim *prim = &w->prim[hit->prim];
@@ -454,14 +466,11 @@ void world_surface(const World *w, const Ray *ray, const Hit *hit, bool want_uv,
     out->n_textures = 0;
     ops->surface(prim->data, hit, out);
 
-    /* The same arithmetic with and without a place: one that only scales by a power of two must change no bit. */
-    Vec3 n = normalized(is_zero(out->normal) ? negated(out->ray_d) : out->normal);     /* the tip of a cone: any will do */
-    bool smooth = !is_zero(out->geometric);
-    Vec3 across = affine_normal(place, smooth ? normalized(out->geometric) : n);
-    double stretch = length(across), error = out->error / stretch;
-    out->error = error > world_error ? error : world_error;    /* planes a apart become planes a / |across| apart */
-    Vec3 g = stretch > 0 ? scaled(across, 1 / stretch) : across;
-    n = smooth ? normalized(affine_normal(place, n)) : g;
+    Vec3 n = out->normal, g = n;
+    /* Without a place a normal of length 1 stays as it is: no need to wait for roots and quotients that are 1. */
+    bool stays = (ops->flags & SHAPE_FLAT) && place->identity && length2(n) == 1 && is_zero(out->geometric);
+    if (!stays)
+        carry_normals(place, world_error, out, &n, &g);
     if (!place->identity)
         out->p = same_point(out->p, local) ? ray_at(ray, hit->t) : affine_apply(place->m, out->p);
     if ((prim->flags & PRIM_INVERSE) && !(ops->flags & SHAPE_NORMAL_STAYS))
