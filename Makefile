@@ -42,7 +42,7 @@ ifeq ($$(call have,$(2)),1)
   endif
 endif
 endef
-$(eval $(call optional,PNG,libpng zlib))
+$(eval $(call optional,PNG,libpng))
 $(eval $(call optional,JPEG,libjpeg))
 $(eval $(call optional,GIF,libgif))
 $(eval $(call optional,FREETYPE,freetype2))
