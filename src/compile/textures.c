@@ -14,20 +14,6 @@ static const Affine *place_of(Compile *c, const Affine *own, const Affine *aroun
     return place.identity ? NULL : arena_copy(c->arena, &place, sizeof place);
 }
 
-static bool pigment_is_uniform(const Pigment *p)
-{
-    return p == NULL || p->kind == PIGMENT_PLAIN;
-}
-
-static bool texture_is_uniform(const Texture *t)
-{
-    for (; t != NULL; t = t->below)
-        if (t->kind != TEXTURE_PLAIN || !pigment_is_uniform(t->pigment) || t->normal != NULL ||
-            (t->finish != NULL && t->finish->irid > 0))
-            return false;
-    return true;
-}
-
 /* ---- textures ---- */
 
 typedef struct TextureKey {
@@ -84,7 +70,7 @@ uint32_t texture_placed(Compile *c, const Texture *t, const Affine *own, const A
 {
     t = pruned(c, t);
     Affine room;
-    const Affine *place = texture_is_uniform(t) ? NULL : place_within(own, around, &room);
+    const Affine *place = texture_is_flat(t) ? NULL : place_within(own, around, &room);
     TextureKey key = { t, place != NULL && place->identity ? NULL : place };
     uint32_t *slot = table_find(c, &c->textures, texture_hash_of(key.texture, key.place), &key, texture_same, texture_hash);
     if (*slot == 0) {

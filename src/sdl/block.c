@@ -96,7 +96,7 @@ static Vec3 scale_factors(Parser *p)
 static Affine matrix(Parser *p)
 {
     double rows[12];
-    Reader *r = &p->reader[p->n_readers - 1];
+    Reader *r = cursor_top(p);
     if (p->have || !r->is_file || !lex_numbers_literal(&r->lexer, 12, rows)) {
         parse_expect(p, TOK_LESS);
         for (int i = 0; i < 12; i++)

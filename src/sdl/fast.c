@@ -441,7 +441,7 @@ static void full(Fast *f, Num *out)
 
 static inline bool start(Parser *p, Fast *f)
 {
-    const Reader *r = &p->reader[p->n_readers - 1];
+    const Reader *r = cursor_top(p);
     if (p->have || r->is_file || p->version < 350)
         return false;
     f->p = p;
@@ -463,7 +463,7 @@ static bool abandon(Fast *f)
 
 static inline void finish(Parser *p, const Fast *f)
 {
-    Reader *r = &p->reader[p->n_readers - 1];
+    Reader *r = cursor_top(p);
     r->at = (uint32_t)(f->at - r->tokens);
     if (f->target)
         value_set_number(p, f->target, &(Num){ { f->normal.x, f->normal.y, f->normal.z }, 3 });
@@ -537,7 +537,7 @@ const Token *fast_text_item(Parser *p)
     Fast f;
     if (!start(p, &f) || !take(&f, TOK_STRING) || !end_item(&f))
         return NULL;
-    const Token *text = &p->reader[p->n_readers - 1].tokens[p->reader[p->n_readers - 1].at];
+    const Token *text = &cursor_top(p)->tokens[cursor_top(p)->at];
     finish(p, &f);
     return text;
 }

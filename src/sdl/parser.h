@@ -167,7 +167,7 @@ static inline int cursor_look(Parser *p)
 {
     if (p->have && (p->token.kind != TOK_HASH || p->suspended))
         return p->token.kind;
-    Reader *r = &p->reader[p->n_readers - 1];
+    Reader *r = cursor_top(p);
     if (!p->have && !r->is_file && r->at < r->n && r->tokens[r->at].kind != TOK_HASH && r->tokens[r->at].kind != TOK_NAME) {
         p->token = r->tokens[r->at++];
         p->have = true;

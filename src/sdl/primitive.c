@@ -32,7 +32,7 @@ int parse_peek_raw(Parser *p)
     Token t = p->token;
     if (p->have)
         return t.kind;
-    const Reader *r = &p->reader[p->n_readers - 1];
+    const Reader *r = cursor_top(p);
     if (!r->is_file)
         return r->at < r->n ? r->tokens[r->at].kind : TOK_END;
     Lexer ahead = r->lexer;
@@ -172,7 +172,7 @@ bool parse_at_number(Parser *p)
 /* The reader, if what comes next can be read straight from the characters of a file. */
 static Reader *plain_text(Parser *p)
 {
-    Reader *r = &p->reader[p->n_readers - 1];
+    Reader *r = cursor_top(p);
     return r->is_file && !p->have ? r : NULL;
 }
 
@@ -237,7 +237,7 @@ Vec2 parse_vec2(Parser *p)
 
 Vec3 parse_vec3(Parser *p)
 {
-    Reader *r = &p->reader[p->n_readers - 1];
+    Reader *r = cursor_top(p);
     double v[3];
     bool inside = p->have && p->token.kind == TOK_LESS;
     if (r->is_file && (inside || !p->have) && lex_vector_literal(&r->lexer, inside ? LEX_INSIDE : LEX_NOTHING, v)) {

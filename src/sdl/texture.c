@@ -112,7 +112,7 @@ const Texture *texture_with(Parser *p, const Texture *from, const Pigment *pigme
 /* NULL where a texture on top of this one cannot be told from its characters. */
 static Lexer *lexer_for_literals(Parser *p, const Texture *top)
 {
-    Reader *r = &p->reader[p->n_readers - 1];
+    Reader *r = cursor_top(p);
     return !p->have && r->is_file && top->kind == TEXTURE_PLAIN && top->pigment->quick == NULL ? &r->lexer : NULL;
 }
 
