@@ -5,6 +5,7 @@
 #include <float.h>
 #include <string.h>
 
+#include "base/bits.h"
 #include "base/cpu.h"
 #include "world/world.h"
 
@@ -39,11 +40,7 @@ static inline uint32_t bvh_count(uint32_t child) { return child & ((1 << BVH_COU
 /* The next float towards zero (away from it) in size; for 0 itself see below. */
 static inline float float_step(float f, int by)
 {
-    int32_t bits;
-    memcpy(&bits, &f, sizeof bits);
-    bits += by;
-    memcpy(&f, &bits, sizeof f);
-    return f;
+    return float_of_bits(float_bits(f) + (uint32_t)by);
 }
 
 static inline float float_down(float f)        /* f > -INFINITY */

@@ -86,17 +86,12 @@ static __attribute__((noinline)) uint32_t meet(const BvhNode *node, const BoxRay
  * the order is another; all a ray begins with is a little below.) */
 static inline int64_t visit_of(const BvhNode *node, uint32_t i, const float near[BVH_WIDTH])
 {
-    int32_t bits;
-    memcpy(&bits, &near[i], sizeof bits);
-    return (int64_t)((uint64_t)(uint32_t)bits << 32 | node->child[i]);
+    return (int64_t)((uint64_t)float_bits(near[i]) << 32 | node->child[i]);
 }
 
 static inline float visit_near(int64_t visit)
 {
-    uint32_t bits = (uint32_t)((uint64_t)visit >> 32);
-    float near;
-    memcpy(&near, &bits, sizeof near);
-    return near;
+    return float_of_bits((uint32_t)((uint64_t)visit >> 32));
 }
 
 /* Puts the children on the stack, the nearest on top. */

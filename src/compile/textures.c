@@ -10,8 +10,9 @@
 
 static const Affine *place_of(Compile *c, const Affine *own, const Affine *around)
 {
-    Affine place = affine_then(affine_of(own), *around);
-    return place.identity ? NULL : arena_copy(c->arena, &place, sizeof place);
+    Affine room;
+    const Affine *place = place_within(own, around, &room);
+    return place->identity ? NULL : arena_copy(c->arena, place, sizeof *place);
 }
 
 /* ---- textures ---- */

@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/bits.h"
+
 static bool linear(Transfer t)
 {
     return t.kind == TRANSFER_NONE || (t.kind == TRANSFER_POWER && fabs(t.exponent - 1) <= 0.01);
@@ -96,20 +98,6 @@ static void channels_of(const Quantising *q, const float *rgba, double out[4])
 
 /* ---- no dither ---- */
 
-static float float_of_bits(uint32_t bits)
-{
-    float f;
-    memcpy(&f, &bits, sizeof f);
-    return f;
-}
-
-static uint32_t bits_of(float f)
-{
-    uint32_t bits;
-    memcpy(&bits, &f, sizeof bits);
-    return bits;
-}
-
 enum { INFINITE = 0x7f800000 };                /* the bits of it */
 
 /* Cells are those of floats with equal upper bits, 64 to the octave from 2^-14 to 1. */
@@ -139,7 +127,7 @@ static void find_steps(const Quantising *q, bool is_alpha, int max, Steps *s)
         if (k > max)
             continue;
         /* The bits of floats from 0 to infinity rise with them. From where the inverse says, in ever larger steps; then halves. */
-        uint32_t at = bits_of((float)decoded(q, is_alpha, (k - 0.5) / max)), low = 0, high = INFINITE;
+        uint32_t at = float_bits((float)decoded(q, is_alpha, (k - 0.5) / max)), low = 0, high = INFINITE;
         for (uint32_t step = 1; at > low && at < high; step *= 4) {
             if (code_of(encoded(q, is_alpha, (double)float_of_bits(at)), max) >= k) {
                 high = at;
@@ -163,7 +151,7 @@ static void find_steps(const Quantising *q, bool is_alpha, int max, Steps *s)
 
 static uint16_t step_of(const Steps *s, float v)
 {
-    uint32_t cell = (bits_of(v) >> CELL_BITS) - CELL_FIRST;
+    uint32_t cell = (float_bits(v) >> CELL_BITS) - CELL_FIRST;
     int k = cell < CELLS ? s->from[cell] : v >= 1 ? s->from[CELLS] : 0;
     while (v >= s->at[k + 1])                  /* NaN fails every comparison: 0 */
         k++;

@@ -4,8 +4,7 @@
  * table of chords says nearly enough: only a distance within its error of the threshold asks for the powers themselves. */
 #include "render/contrast.h"
 
-#include <string.h>
-
+#include "base/bits.h"
 #include "image/gamma.h"
 
 /* A chord spans 1/16 of a power of two: from the bits of the float 2^-24 to those of 2^4. */
@@ -23,13 +22,6 @@ struct Contrast {
     bool chords;                               /* is the table filled? */
     double chord[CHORDS + 1];                  /* its ends */
 };
-
-static float float_of_bits(uint32_t bits)
-{
-    float f;
-    memcpy(&f, &bits, sizeof f);
-    return f;
-}
 
 static double exact_light(const Contrast *c, float value)
 {
@@ -62,9 +54,7 @@ Contrast *contrast_new(Arena *arena, const World *w, const RenderOptions *option
 
 static double near_light(const Contrast *c, float value)
 {
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    uint32_t i = (bits >> CHORD_BITS) - CHORD_FIRST;
+    uint32_t bits = float_bits(value), i = (bits >> CHORD_BITS) - CHORD_FIRST;
     if (i >= CHORDS)                           /* also all that is negative or no number */
         return exact_light(c, value);
     double along = (bits & ((1u << CHORD_BITS) - 1)) * (1.0 / (1u << CHORD_BITS));
