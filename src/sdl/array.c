@@ -53,10 +53,24 @@ void array_check_type(Parser *p, ValueArray *array, const Value *v, Loc loc)
         fail(p->diag, loc, "Attempted to redefine %s as %s.", value_type_name(&array->type), value_type_name(v));
 }
 
+/* POV: an item may call macros and run directives further on, but not begin with one. Here loops may write items. */
+static void begin_item(Parser *p)
+{
+    if (p->have)
+        return;
+    cursor_raw(p, &p->token);
+    p->have = true;
+    const Value *v = p->token.kind == TOK_NAME ? symbol_value(p->token.sym) : NULL;
+    if (p->token.kind == TOK_HASH || (v != NULL && v->kind == VALUE_MACRO))
+        parse_mend(p, "An item of an array that begins with a directive or a macro call");
+    cursor_fetch(p);                           /* from where it stands: runs what it names */
+}
+
 static void initialise(Parser *p, ValueArray *a, uint32_t dimension, uint32_t *at)
 {
     parse_open(p);
     for (uint32_t i = 0; i < a->size[dimension]; i++) {
+        begin_item(p);
         if (dimension + 1 < a->n_dimensions) {
             initialise(p, a, dimension + 1, at);
         } else {

@@ -34,6 +34,8 @@ static void what_has_one_meaning_is_read_with_a_warning_and_strictly_refused(voi
     static const char *const texts[] = {
         HEAD "#declare A = rgb 1 + rgb 1;", HEAD "#declare A = <1,2,3>.x.x;", HEAD "#declare A = min(3 1);",
         HEAD "cylinder { 0, x, 1 open open pigment { rgb 1 } }", HEAD "light_source { 0, 1 rgb 1 }",
+        HEAD "#macro M(X) X #end #declare A = array[2] { M(1), 2 };", HEAD "#declare A = array[3] { #for (I, 0, 2) I, #end };",
+        HEAD "#declare A = array[1][2] { { 1, #local X = 2; X } };",
     };
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         Parsed *s = parsed(texts[i]);
