@@ -6,15 +6,29 @@
 
 static const Colour NOTHING = { 0, 0, 0, 0, 1 };       /* where no ray goes */
 
-/* With focal blur the eye moves within the aperture: mostly in the same bodies. */
-static bool bodies_differ(const Sampling *s)
+static const Bounds NOWHERE = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
+
+/* Where rays start that are not odd: with focal blur within the aperture, for orthographic cameras on the picture and some pixels
+ * around it. Everywhere there the bodies are mostly those around the location, so that not each ray need ask. */
+static Bounds home_of(const Sampling *s)
 {
     const CameraDef *def = s->camera.def;
-    if (s->blur == NULL || s->mesh != NULL)
-        return camera_moves(def);
-    double unit = s->world->unit, reach = def->aperture * (0.5 + 2 * s->blur->jitter) * unit;
-    Vec3 eye = scaled(def->location, unit), half = vec3(reach, reach, reach);
-    return !world_same_bodies(s->world, eye, (Bounds){ sub(eye, half), add(eye, half) });
+    double unit = s->world->unit;
+    Vec3 eye = scaled(def->location, unit), half;
+    if (s->mesh != NULL)
+        return NOWHERE;
+    if (s->blur != NULL) {
+        double reach = def->aperture * (0.5 + 2 * s->blur->jitter) * unit;
+        half = vec3(reach, reach, reach);
+    } else if (def->kind == CAMERA_ORTHOGRAPHIC) {
+        double u = (0.5 + 4 / s->camera.width) * unit, v = (0.5 + 4 / s->camera.height) * unit;
+        Vec3 right = scaled(def->right, u), up = scaled(def->up, v);
+        half = vec3(fabs(right.x) + fabs(up.x), fabs(right.y) + fabs(up.y), fabs(right.z) + fabs(up.z));
+    } else {
+        return NOWHERE;
+    }
+    Bounds home = { sub(eye, half), add(eye, half) };
+    return world_same_bodies(s->world, eye, home) ? home : NOWHERE;
 }
 
 /* Places within the pixel, cells of 16 x 16, each jittered. POV: the jitter is biased towards the upper left. */
@@ -37,7 +51,8 @@ Sampling *sampling_new(Arena *arena, const World *w, const RenderOptions *option
     s->camera = camera_new(&w->camera, options->width, options->height);
     s->mesh = mesh_camera_new(arena, w, options->width, options->height);
     s->blur = blur_new(arena, &w->camera);
-    s->moves = bodies_differ(s);
+    s->moves = camera_moves(&w->camera);
+    s->home = s->moves ? home_of(s) : NOWHERE;
     s->across = normalized(cross(w->camera.up, w->camera.direction));
     s->down = normalized(cross(w->camera.direction, s->across));
     s->focus = w->camera.focal_distance / length(w->camera.direction);
@@ -52,7 +67,7 @@ void sampler_init(Sampler *s, Arena *arena, const Sampling *sampling, Radiosity 
 {
     s->sampling = sampling;
     s->tracer = tracer_new(arena, sampling->tracing, radiosity);
-    tracer_interiors(s->tracer, scaled(sampling->camera.def->location, sampling->world->unit), &s->around);
+    tracer_interiors(s->tracer, scaled(sampling->camera.def->location, sampling->world->unit), &s->at_home);
 }
 
 void sampler_free(Sampler *s)
@@ -73,9 +88,10 @@ static Colour shoot(Sampler *s, const CameraRay *ray, double reach)
     if (all->camera.def->normal != NULL)
         d = normalized(normal_perturb(all->camera.def->normal, vec3(ray->work.u, ray->work.v, 0), d, NULL));
     Vec3 o = scaled(ray->o, all->world->unit);
-    if (all->moves)
-        tracer_interiors(s->tracer, o, &s->around);
-    return tracer_camera_ray(s->tracer, o, d, reach, &s->around);
+    if (!all->moves || bounds_contain(all->home, o))
+        return tracer_camera_ray(s->tracer, o, d, reach, &s->at_home);
+    tracer_interiors(s->tracer, o, &s->elsewhere);
+    return tracer_camera_ray(s->tracer, o, d, reach, &s->elsewhere);
 }
 
 /* ---- focal blur ---- */

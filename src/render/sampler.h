@@ -20,13 +20,14 @@ typedef struct Sampling {
     Vec3 across, down;                         /* of the aperture */
     double radius;                             /* half its diameter */
     double focus;                              /* distance of what is sharp, in lengths of the camera's direction */
-    bool moves;                                /* the bodies around the eye differ from ray to ray */
+    Bounds home;                               /* rays from here start in the same bodies; empty: nothing is known */
+    bool moves;                                /* rays may start elsewhere */
 } Sampling;
 
 typedef struct Sampler {
     const Sampling *sampling;
     Tracer *tracer;
-    Interiors around;
+    Interiors at_home, elsewhere;              /* the bodies around the eye */
 } Sampler;
 
 Sampling *sampling_new(Arena *arena, const World *w, const RenderOptions *options);

@@ -32,9 +32,9 @@ static bool keep_item(void *user, uint32_t i, double *t_max)
     return keep(g, g->world->accel_prim[i]);
 }
 
-/* A plane with o and the whole box on its outer side is hit by no ray between them. o may lie close to it: the plane's own
- * formula then finds every root behind the origin, as the ray leads clearly away from it. */
-static bool stays_outside(const Prim *prim, Vec3 o, Bounds to)
+/* A plane with o and the whole box on its outer side (side 1; -1: inner) is hit by no ray between them. o may lie close to it: the
+ * plane's own formula then finds every root behind the origin, as the ray leads clearly away from it. */
+static bool stays_on(double side, const Prim *prim, Vec3 o, Bounds to)
 {
     if (prim->ops->half_space == NULL)
         return false;
@@ -42,6 +42,8 @@ static bool stays_outside(const Prim *prim, Vec3 o, Bounds to)
     Vec3 n;
     double distance;
     prim->ops->half_space(prim->data, &n, &distance);
+    n = scaled(n, side);
+    distance *= side;
     if (!(dot(n, affine_point_back(place, o)) > distance))
         return false;
     /* n' x = n (x back), for points of the world. */
@@ -58,7 +60,7 @@ void world_shaft(const World *w, Vec3 o, Bounds to, uint32_t skip, Shaft *out)
     out->n = 0;
     out->crowded = false;
     for (uint32_t i = 0; i < w->n_unbounded; i++)
-        if (!stays_outside(&w->prim[w->unbounded[i]], o, to) && keep(&g, w->unbounded[i]))
+        if (!stays_on(1, &w->prim[w->unbounded[i]], o, to) && keep(&g, w->unbounded[i]))
             return;
     if (w->n_accel_prims > 0)
         w->accel_ops->between(w->accel, o, to, keep_item, &g);
@@ -226,5 +228,8 @@ bool world_same_bodies(const World *w, Vec3 o, Bounds box)
             return false;
     Shaft shaft;
     world_shaft(w, o, box, 0, &shaft);
-    return shaft.n == 0;
+    for (uint32_t i = 0; i < shaft.n; i++)
+        if (!stays_on(-1, &w->prim[shaft.prim[i]], o, box))
+            return false;
+    return !shaft.crowded;
 }
