@@ -284,6 +284,8 @@ static uint32_t shape_prims(Compile *c, const Object *o, const Inherited *from)
         Prim *prim = &c->prim.data[i];
         if (opaque && c->all_opaque)
             prim->flags |= PRIM_OPAQUE;
+        if ((o->ops->flags & SHAPE_FLAT) && prim->place->identity && !(prim->flags & PRIM_INVERSE) && !(m.flags & MATERIAL_CUTAWAY))
+            prim->flags |= PRIM_FACE;
         if (c->no_inside)
             prim->flags |= PRIM_PATCH;         /* POV: `inverse` turns its normals still */
     }

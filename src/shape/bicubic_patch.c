@@ -319,6 +319,6 @@ static Bounds extent(const void *params, const Affine *place)
 }
 
 const ShapeOps shape_bicubic_patch = {
-    .keyword = "bicubic_patch", .params_size = sizeof(Params), .flags = SHAPE_PATCH | SHAPE_HAS_UV | SHAPE_IGNORES_CLIP, .parse = parse,
-    .compile = compile, .hits = hits, .surface = surface, .extent = extent,
+    .keyword = "bicubic_patch", .params_size = sizeof(Params), .flags = SHAPE_PATCH | SHAPE_HAS_UV | SHAPE_IGNORES_CLIP | SHAPE_SMOOTH,
+    .parse = parse, .compile = compile, .hits = hits, .surface = surface, .extent = extent,
 };

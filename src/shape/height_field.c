@@ -451,6 +451,6 @@ static Bounds extent(const void *params, const Affine *place)
 }
 
 const ShapeOps shape_height_field = {
-    .keyword = "height_field", .params_size = sizeof(Params), .flags = SHAPE_HAS_HIERARCHY | SHAPE_NO_BOX_IN_CSG, .parse = parse,
-    .item = item, .compile = compile, .hits = hits, .inside = inside, .surface = surface, .extent = extent,
+    .keyword = "height_field", .params_size = sizeof(Params), .flags = SHAPE_HAS_HIERARCHY | SHAPE_NO_BOX_IN_CSG | SHAPE_SMOOTH,
+    .parse = parse, .item = item, .compile = compile, .hits = hits, .inside = inside, .surface = surface, .extent = extent,
 };

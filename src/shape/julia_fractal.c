@@ -468,7 +468,7 @@ static void surface(const void *shape, const Hit *hit, Surface *out)
     (void)hit;
     const Julia *j = shape;
     Vec3 n = j->p.hypercomplex ? hyper_normal(j, out->p) : quaternion_normal(j, out->p);
-    out->normal = vec3_finite(n) && max_abs(n) > 0 ? scaled(n, 1 / max_abs(n)) : negated(out->ray_d);
+    out->normal = vec3_finite(n) && max_abs(n) > 0 ? scaled(n, 1 / max_abs(n)) : vec3(0, 0, 0);
 }
 
 static Bounds extent(const void *params, const Affine *place)

@@ -202,6 +202,6 @@ static void parse(Parser *p, void *params)
 
 const ShapeOps shape_mesh = {
     .keyword = "mesh", .params_size = sizeof(MeshParams),
-    .flags = SHAPE_HAS_HIERARCHY | SHAPE_HAS_UV | SHAPE_SHARED, .parse = parse, .item = mesh_item,
+    .flags = SHAPE_HAS_HIERARCHY | SHAPE_HAS_UV | SHAPE_SHARED | SHAPE_SMOOTH, .parse = parse, .item = mesh_item,
     .compile = mesh_compile, .hits = mesh_hits, .inside = mesh_inside, .surface = mesh_surface, .extent = mesh_extent,
 };

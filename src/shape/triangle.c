@@ -172,6 +172,6 @@ static Bounds extent_smooth(const void *params, const Affine *place)
 }
 
 const ShapeOps shape_smooth_triangle = {
-    .keyword = "smooth_triangle", .params_size = sizeof(SmoothParams), .flags = SHAPE_PATCH, .parse = parse_smooth,
-    .compile = compile_smooth, .hits = hits, .surface = surface_smooth, .extent = extent_smooth,
+    .keyword = "smooth_triangle", .params_size = sizeof(SmoothParams), .flags = SHAPE_PATCH | SHAPE_SMOOTH,
+    .parse = parse_smooth, .compile = compile_smooth, .hits = hits, .surface = surface_smooth, .extent = extent_smooth,
 };

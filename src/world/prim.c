@@ -433,11 +433,10 @@ static double error_at(Vec3 o, Vec3 d, double t)
 }
 
 /* The same arithmetic with and without a place: one that only scales by a power of two must change no bit. */
-static inline void carry_normals(const Affine *place, double world_error, Surface *s, Vec3 *normal, Vec3 *geometric)
+static inline void carry_normals(const Affine *place, bool smooth, double world_error, const Ray *ray, Surface *s, Vec3 *normal, Vec3 *geometric)
 {
-    Vec3 n = normalized(is_zero(s->normal) ? negated(s->ray_d) : s->normal);       /* the tip of a cone: any will do */
-    bool smooth = !is_zero(s->geometric);
-    Vec3 across = affine_normal(place, smooth ? normalized(s->geometric) : n);
+    Vec3 raw = is_zero(s->normal) ? negated(affine_vector_back(place, ray->d)) : s->normal;
+    Vec3 n = normalized(raw), across = affine_normal(place, smooth ? normalized(s->geometric) : n);
     double stretch = length(across), error = s->error / stretch;
     s->error = error > world_error ? error : world_error;  /* planes a apart become planes a / |across| apart */
     *geometric = stretch > 0 ? scaled(across, 1 / stretch) : across;
@@ -451,38 +450,42 @@ void world_surface(const World *w, const Ray *ray, const Hit *hit, bool want_uv,
     const Affine *place = prim->place;
     double world_error = error_at(ray->o, ray->d, hit->t);
     Vec3 local = ray_at(ray, hit->t);
-    out->ray_d = ray->d;
     out->error = world_error;
     if (!place->identity) {
-        Vec3 o = affine_apply(place->inv, ray->o);
-        out->ray_d = affine_apply_linear(place->inv, ray->d);
-        out->error = error_at(o, out->ray_d, hit->t);
-        local = add(o, scaled(out->ray_d, hit->t));
+        Vec3 o = affine_apply(place->inv, ray->o), d = affine_apply_linear(place->inv, ray->d);
+        out->error = error_at(o, d, hit->t);
+        local = add(o, scaled(d, hit->t));
     }
     out->p = local;
-    out->normal = out->geometric = vec3(0, 0, 0);
     out->uv = (Vec2){ 0, 0 };
     out->want_uv = want_uv && (ops->flags & SHAPE_HAS_UV);
     out->n_textures = 0;
+    bool smooth = (ops->flags & SHAPE_SMOOTH) != 0;
+    if (smooth)
+        out->geometric = vec3(0, 0, 0);
     ops->surface(prim->data, hit, out);
 
-    Vec3 n = out->normal, g = n;
-    /* Without a place a normal of length 1 stays as it is: no need to wait for roots and quotients that are 1. */
-    bool stays = (ops->flags & SHAPE_FLAT) && place->identity && length2(n) == 1 && is_zero(out->geometric);
-    if (!stays)
-        carry_normals(place, world_error, out, &n, &g);
-    if (!place->identity)
-        out->p = same_point(out->p, local) ? ray_at(ray, hit->t) : affine_apply(place->m, out->p);
-    if ((prim->flags & PRIM_INVERSE) && !(ops->flags & SHAPE_NORMAL_STAYS))
-        n = negated(n);
-    out->back = dot(n, ray->d) > 0;
-    out->normal = out->back ? negated(n) : n;
-    out->geometric = dot(g, ray->d) > 0 ? negated(g) : g;
+    /* The normal of a face stays as it is: no need to wait for roots and quotients that are 1, nor to turn it twice. */
+    Vec3 n = out->normal;
+    if ((prim->flags & PRIM_FACE) && length2(n) == 1) {
+        out->back = dot(n, ray->d) > 0;
+        out->normal = out->geometric = out->back ? negated(n) : n;
+    } else {
+        Vec3 g;
+        carry_normals(place, smooth && !is_zero(out->geometric), world_error, ray, out, &n, &g);
+        if (!place->identity)
+            out->p = same_point(out->p, local) ? ray_at(ray, hit->t) : affine_apply(place->m, out->p);
+        if ((prim->flags & PRIM_INVERSE) && !(ops->flags & SHAPE_NORMAL_STAYS))
+            n = negated(n);
+        out->back = dot(n, ray->d) > 0;
+        out->normal = out->back ? negated(n) : n;
+        out->geometric = dot(g, ray->d) > 0 ? negated(g) : g;
+        if (w->material[prim->material].flags & MATERIAL_CUTAWAY)
+            cutaway_surface(w, prim, out);
+    }
     if (want_uv && !out->want_uv)
         out->uv = (Vec2){ out->p.x / w->unit, out->p.y / w->unit };
     out->want_uv = want_uv;
-    if (w->material[prim->material].flags & MATERIAL_CUTAWAY)
-        cutaway_surface(w, prim, out);
 }
 
 /* ---- bodies around a point ---- */

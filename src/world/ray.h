@@ -59,12 +59,11 @@ enum { SURFACE_MAX_TEXTURES = 16 };
 /* Filled by ShapeOps.surface in the prim's local space, then carried to world space by world_surface. */
 struct Surface {
     Vec3 p;                                    /* in: o + t d; the shape may move it onto the true surface */
-    Vec3 normal;                               /* out: outward, any length; smooth shapes: the shading normal; in: zero */
-    Vec3 geometric;                            /* out if it differs from normal (smooth triangles); in: zero */
+    Vec3 normal;                               /* out: outward, any length, zero: towards the ray; smooth shapes: the shading normal */
+    Vec3 geometric;                            /* SHAPE_SMOOTH alone: out if it differs from normal; in: zero */
     Vec2 uv;                                   /* out, if want_uv and SHAPE_HAS_UV; for the rest scene coordinates x, y are taken */
     bool want_uv;                              /* in */
     double error;                              /* in: rounding bound on |p - surface|, local; a shape may raise it */
-    Vec3 ray_d;                                /* in: local direction */
     /* out: weighted textures of this point (blob components, mesh vertices), by build_texture's index; 0 = the prim's own */
     uint32_t n_textures;
     struct { uint32_t texture; float weight; } texture[SURFACE_MAX_TEXTURES];

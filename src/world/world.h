@@ -31,7 +31,8 @@ enum {                                         /* Prim.flags */
     PRIM_OPAQUE = 256,                         /* all textures it may show, interior_texture too, are opaque: shadow rays may stop */
     PRIM_BOXED = 512,                          /* unbounded, but for a bound: hits outside its box do not count */
     PRIM_BOUNDED = 1024,                       /* below a BOUND node */
-    PRIM_CONVEX = 2048                         /* and closed: a line through its inside meets its surface on both sides */
+    PRIM_CONVEX = 2048,                        /* and closed: a line through its inside meets its surface on both sides */
+    PRIM_FACE = 4096                           /* flat, in the world's space, not inverted, and no cutaway */
 };
 
 typedef struct Prim {

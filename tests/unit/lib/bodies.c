@@ -106,6 +106,7 @@ static void block_surface(const void *shape, const Hit *hit, Surface *out)
     const Bounds *b = shape;
     int axis = (int)hit->part % 3;
     double middle = vec3_at(b->lo, axis) / 2 + vec3_at(b->hi, axis) / 2;
+    out->normal = vec3(0, 0, 0);
     vec3_set(&out->normal, axis, vec3_at(out->p, axis) < middle ? -1 : 1);
 }
 
