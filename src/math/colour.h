@@ -6,23 +6,24 @@
 #include <stdbool.h>
 
 typedef struct Colour { float r, g, b, f, t; } Colour;     /* red, green, blue, filter, transmit */
-typedef struct Rgb { float r, g, b; } Rgb;
+typedef float Rgb __attribute__((vector_size(16)));    /* c[0], c[1], c[2]: red, green, blue; the fourth means nothing */
 
-static inline Rgb rgb(float r, float g, float b) { return (Rgb){ r, g, b }; }
-static inline Rgb rgb_grey(float v) { return (Rgb){ v, v, v }; }
-static inline Rgb rgb_of(Colour c) { return (Rgb){ c.r, c.g, c.b }; }
-static inline Rgb rgb_add(Rgb a, Rgb b) { return (Rgb){ a.r + b.r, a.g + b.g, a.b + b.b }; }
-static inline Rgb rgb_sub(Rgb a, Rgb b) { return (Rgb){ a.r - b.r, a.g - b.g, a.b - b.b }; }
-static inline Rgb rgb_mul(Rgb a, Rgb b) { return (Rgb){ a.r * b.r, a.g * b.g, a.b * b.b }; }
-static inline Rgb rgb_scaled(Rgb a, float s) { return (Rgb){ a.r * s, a.g * s, a.b * s }; }
-static inline float rgb_greyness(Rgb c) { return 0.297f * c.r + 0.589f * c.g + 0.114f * c.b; }
+static inline Rgb rgb(float r, float g, float b) { return (Rgb){ r, g, b, 0 }; }
+static inline Rgb rgb_grey(float v) { return (Rgb){ v, v, v, v }; }
+static inline Rgb rgb_of(Colour c) { return (Rgb){ c.r, c.g, c.b, c.f }; }
+static inline Colour colour_of(Rgb c, float f, float t) { return (Colour){ c[0], c[1], c[2], f, t }; }
+static inline Rgb rgb_add(Rgb a, Rgb b) { return a + b; }
+static inline Rgb rgb_sub(Rgb a, Rgb b) { return a - b; }
+static inline Rgb rgb_mul(Rgb a, Rgb b) { return a * b; }
+static inline Rgb rgb_scaled(Rgb a, float s) { return a * s; }
+static inline float rgb_greyness(Rgb c) { return 0.297f * c[0] + 0.589f * c[1] + 0.114f * c[2]; }
 static inline float rgb_max(Rgb c)              /* fmaxf would be a call */
 {
-    float most = c.g > c.b ? c.g : c.b;
-    return most > c.r ? most : c.r;
+    float most = c[1] > c[2] ? c[1] : c[2];
+    return most > c[0] ? most : c[0];
 }
-static inline float rgb_max_abs(Rgb c) { return rgb_max((Rgb){ fabsf(c.r), fabsf(c.g), fabsf(c.b) }); }
-static inline bool rgb_is_zero(Rgb c) { return fabsf(c.r) + fabsf(c.g) + fabsf(c.b) == 0; }        /* one test, not three */
+static inline float rgb_max_abs(Rgb c) { return rgb_max((Rgb){ fabsf(c[0]), fabsf(c[1]), fabsf(c[2]), 0 }); }
+static inline bool rgb_is_zero(Rgb c) { return fabsf(c[0]) + fabsf(c[1]) + fabsf(c[2]) == 0; }        /* one test, not three */
 
 static inline Colour colour_add(Colour a, Colour b)
 {
@@ -44,7 +45,7 @@ static inline Colour colour_lerp(Colour a, Colour b, float t)
 /* What passes through a surface of this colour: c.rgb * filter + transmit (04-shading). */
 static inline Rgb colour_transmittance(Colour c)
 {
-    return (Rgb){ c.r * c.f + c.t, c.g * c.f + c.t, c.b * c.f + c.t };
+    return rgb_of(c) * c.f + c.t;
 }
 
 #endif

@@ -10,8 +10,8 @@ Rgb finish_iridescence(const Finish *finish, Vec3 p, double cos_light, double co
         thickness *= 1 + (2 * noise_turbulence(generator, p, 5, 0.5, 2) - 1) * (double)finish->irid_turbulence;
     }
     double phase = 2 * PI * thickness * (fabs(cos_light) + fabs(cos_ray)), irid = (double)finish->irid;
-    return rgb((float)(1 + irid * cos(phase / (double)wavelength.r)), (float)(1 + irid * cos(phase / (double)wavelength.g)),
-               (float)(1 + irid * cos(phase / (double)wavelength.b)));
+    return rgb((float)(1 + irid * cos(phase / (double)wavelength[0])), (float)(1 + irid * cos(phase / (double)wavelength[1])),
+               (float)(1 + irid * cos(phase / (double)wavelength[2])));
 }
 
 double finish_metallic_fresnel(double cosine)

@@ -161,9 +161,9 @@ static Vec3 place_of(const Area *a, int u, int v)
 
 static void set_sample(AreaSample *sample, Rgb c)
 {
-    sample->colour[0] = c.r;
-    sample->colour[1] = c.g;
-    sample->colour[2] = c.b;
+    sample->colour[0] = c[0];
+    sample->colour[1] = c[1];
+    sample->colour[2] = c[2];
 }
 
 static f4 ask(const Area *a, AreaSample *sample, int u, int v)
@@ -269,13 +269,13 @@ Rgb area_visible(const Spot *spot, uint32_t light, Rgb colour)
     a.axes = area_axes(source, a.l);
     Shaft among;
     Between between = look_between(&a, &among);
-    if (colour.r >= 0 && between == BETWEEN_CLEAR)
+    if (colour[0] >= 0 && between == BETWEEN_CLEAR)
         return mean_of_equals(&a, colour);
     if (between == BETWEEN_DARK)
         return mean_of_equals(&a, rgb_grey(0));
     if (between == BETWEEN_SOME) {
         a.among = &among;
-        a.plain = colour.r >= 0 && shaft_is_opaque(spot->t->world, &among) && !shadow_dims(spot->t, source);
+        a.plain = colour[0] >= 0 && shaft_is_opaque(spot->t->world, &among) && !shadow_dims(spot->t, source);
         a.ray = shadow_ray(spot, a.l, 0);      /* look_between has seen that all start there */
     }
     return mean_of_all(&a);

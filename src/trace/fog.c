@@ -54,5 +54,5 @@ Colour fog_apply(const Tracing *tracing, Vec3 o, Vec3 d, double depth, Colour c)
 {
     FogPass pass = fog_pass(tracing, o, d, depth);
     Rgb seen = rgb_add(pass.added, rgb_mul(pass.factor, rgb_of(c)));
-    return (Colour){ seen.r, seen.g, seen.b, c.f, c.t * rgb_greyness(pass.factor) };
+    return colour_of(seen, c.f, c.t * rgb_greyness(pass.factor));
 }

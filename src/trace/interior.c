@@ -59,9 +59,9 @@ Rgb interior_fade(const Interior *i, double depth)
     double x = depth / i->fade_distance;
     Rgb c = i->fade_colour;
     if (i->fade_power >= 1000) {
-        float r = decay(c.r, x), g = c.g == c.r ? r : decay(c.g, x);   /* an exponential is dear: greys need one */
-        return rgb(r, g, c.b == c.g ? g : decay(c.b, x));
+        float r = decay(c[0], x), g = c[1] == c[0] ? r : decay(c[1], x);   /* an exponential is dear: greys need one */
+        return rgb(r, g, c[2] == c[1] ? g : decay(c[2], x));
     }
     x = pow(x, (double)i->fade_power);
-    return rgb(fade(c.r, x), fade(c.g, x), fade(c.b, x));
+    return rgb(fade(c[0], x), fade(c[1], x), fade(c[2], x));
 }

@@ -57,7 +57,7 @@ static double light_share(const Light *light, Vec3 p, Vec3 l, double d)
 
 static bool is_dark(Rgb c)
 {
-    return fabsf(c.r) < (float)TINY && fabsf(c.g) < (float)TINY && fabsf(c.b) < (float)TINY;
+    return fabsf(c[0]) < (float)TINY && fabsf(c[1]) < (float)TINY && fabsf(c[2]) < (float)TINY;
 }
 
 /* Along the straight line to a place of the light. */

@@ -109,7 +109,7 @@ static Rgb light_at(const Stretch *s, Vec3 p, double at)
 
 static Rgb dimmed(Rgb depth)
 {
-    return rgb(expf(-depth.r), expf(-depth.g), expf(-depth.b));
+    return rgb(expf(-depth[0]), expf(-depth[1]), expf(-depth[2]));
 }
 
 /* At a fraction of the part. `faded`: the light is dimmed by what lies before it in the part. */
@@ -200,7 +200,7 @@ static Sample sample_scaled(Sample a, float by)
 static bool apart(const Stretch *s, Sample a, Sample b)
 {
     Rgb d = rgb_sub(a.light, b.light);
-    return fabsf(d.r) + fabsf(d.g) + fabsf(d.b) > s->aa_threshold;
+    return fabsf(d[0]) + fabsf(d[1]) + fabsf(d[2]) > s->aa_threshold;
 }
 
 static Sample refine(const Stretch *s, const Part *part, double from, Sample first, double to, Sample last, int depth)
@@ -437,7 +437,7 @@ static Colour seen_through(Haze haze, Colour c)
 {
     Rgb pass = dimmed(haze.depth);
     Rgb seen = rgb_add(rgb_mul(rgb_of(c), pass), haze.light);
-    return (Colour){ seen.r, seen.g, seen.b, c.f, c.t * rgb_greyness(pass) };
+    return colour_of(seen, c.f, c.t * rgb_greyness(pass));
 }
 
 static void stretch_start(Stretch *s, Tracer *t, Vec3 o, Vec3 d, double depth, const Interiors *in)

@@ -200,9 +200,9 @@ static void ask_sample(Question *q, const GatherSample *s)
     if (weight == 0)
         return;
     q->weight += llrint(weight * UNIT);
-    q->light[0] += llrint(weight * (double)s->light.r * UNIT);
-    q->light[1] += llrint(weight * (double)s->light.g * UNIT);
-    q->light[2] += llrint(weight * (double)s->light.b * UNIT);
+    q->light[0] += llrint(weight * (double)s->light[0] * UNIT);
+    q->light[1] += llrint(weight * (double)s->light[1] * UNIT);
+    q->light[2] += llrint(weight * (double)s->light[2] * UNIT);
 }
 
 static void ask_cache(const Cache *c, Question *q)
@@ -321,7 +321,7 @@ static void gather_ray(const Shade *s, Vec3 d, const Ticket *ticket, int level, 
     Path path = { .ray = { surface_offset(s->surface, d), d, 0, INFINITY }, .in = &nowhere, .weight = weight,
                   .skip = PRIM_NO_RADIOSITY, .level = level, .ticket = ticket };
     Rgb c = clamped(rgb_of(trace_path(t, &path)), t->gather->radiosity->def->max_sample);
-    out->light = add(out->light, vec3((double)c.r, (double)c.g, (double)c.b));
+    out->light = add(out->light, vec3((double)c[0], (double)c[1], (double)c[2]));
     out->n++;
     if (t->depth >= FAR_AWAY)
         return;

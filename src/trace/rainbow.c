@@ -84,5 +84,5 @@ Colour rainbow_apply(Tracer *t, Vec3 d, double depth, Colour c)
     if (n == 0)
         return c;
     sum = rgb_scaled(sum, 1 / n);
-    return (Colour){ sum.r, sum.g, sum.b, c.f, c.t * through };
+    return colour_of(sum, c.f, c.t * through);
 }

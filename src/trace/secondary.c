@@ -21,7 +21,7 @@ static Colour iridescent(const Shade *s, const Polish *polish, Vec3 d, Colour c)
 {
     Rgb film = finish_iridescence(polish->finish, s->at.point, fabs(dot(polish->n, d)), fabs(dot(polish->n, s->path->ray.d)),
                                   s->t->world->globals.irid_wavelength, &s->at);
-    return (Colour){ c.r * film.r, c.g * film.g, c.b * film.b, c.f, c.t };
+    return colour_of(rgb_mul(rgb_of(c), film), c.f, c.t);
 }
 
 Colour shade_reflect(const Shade *s, const Polish *polish, double weight)
@@ -120,7 +120,7 @@ static Colour spectrum(const Shade *s, const Crossing *c, const Polish *top, dou
         sum = rgb_add(sum, rgb_mul(rgb_of(band), hue_of_band(s->t->tracing, wavelength, width)));
     }
     sum = rgb_scaled(sum, 1 / (float)c->bands);
-    return (Colour){ sum.r, sum.g, sum.b, 0, 0 };
+    return colour_of(sum, 0, 0);
 }
 
 static Rgb dimming(const Shade *s, bool leaves)
@@ -149,7 +149,7 @@ bool shade_transmit(const Shade *s, const Polish *top, Rgb filter, bool filtered
     Rgb light = rgb_mul(rgb_of(seen), dim);
     if (!total && filtered)
         light = rgb_mul(light, filter);
-    *sum = (Colour){ sum->r + light.r, sum->g + light.g, sum->b + light.b, 0,
-                     total ? sum->t : rgb_greyness(dim) * seen.t * (filtered ? (float)through : 1) };
+    float t = total ? sum->t : rgb_greyness(dim) * seen.t * (filtered ? (float)through : 1);
+    *sum = colour_of(rgb_add(rgb_of(*sum), light), 0, t);
     return total;
 }

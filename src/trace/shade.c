@@ -85,7 +85,7 @@ static Rgb mirror_light(const Shade *s, const Mirror *m)
     Rgb seen = rgb_of(shade_reflect(s, &m->polish, m->weight));
     float e = m->polish.finish->reflection_exponent;
     if (e != 1 && e != 0)
-        seen = rgb(powf(seen.r, 1 / e), powf(seen.g, 1 / e), powf(seen.b, 1 / e));
+        seen = rgb(powf(seen[0], 1 / e), powf(seen[1], 1 / e), powf(seen[2], 1 / e));
     return rgb_mul(seen, m->share);
 }
 
@@ -199,7 +199,7 @@ static void add_layer(Shade *s, const Look *look, Stack *k, Mirrors *mirrors, Ar
         k->filter = rgb_mul(k->filter, colour_transmittance(c));
         k->filtered = true;
         if (look->layer.finish->conserve_energy)
-            k->filter = rgb_mul(k->filter, rgb(kept(share.r), kept(share.g), kept(share.b)));
+            k->filter = rgb_mul(k->filter, rgb(kept(share[0]), kept(share[1]), kept(share[2])));
     }
     double grey = fabs((double)rgb_greyness(k->filter));
     k->through = grey < 1 ? grey : 1;
@@ -232,7 +232,7 @@ static void shade_stack(Shade *s, const TextureLeaf *leaf, Look *look)
             break;
         look_at(s, leaf, texture, look);
     }
-    Colour c = { k.sum.r + mirrors.rest.r, k.sum.g + mirrors.rest.g, k.sum.b + mirrors.rest.b, 0, 0 };
+    Colour c = colour_of(rgb_add(k.sum, mirrors.rest), 0, 0);
     bool total = false;
     if (k.through > bailout && s->t->tracing->quality >= 6)
         total = shade_transmit(s, &top, k.filter, k.filtered, k.through, &c);
@@ -240,7 +240,7 @@ static void shade_stack(Shade *s, const TextureLeaf *leaf, Look *look)
         if (total && same_normal(mirrors.mirror[i].polish.n, top.n))
             continue;                          /* the same light came back already */
         Rgb light = mirror_light(s, &mirrors.mirror[i]);
-        c = (Colour){ c.r + light.r, c.g + light.g, c.b + light.b, 0, c.t };
+        c = colour_of(rgb_add(rgb_of(c), light), 0, c.t);
     }
     s->sum = colour_add(s->sum, colour_scaled(c, leaf->weight));
 }
@@ -267,7 +267,7 @@ static void shade_leaf(void *user, const TextureLeaf *leaf)
     Around around;
     around.known = false;
     Rgb light = rgb_scaled(layer_light(s, &look.layer, rgb_grey(1), &around), leaf->weight);
-    s->sum = (Colour){ s->sum.r + light.r, s->sum.g + light.g, s->sum.b + light.b, s->sum.f, s->sum.t };
+    s->sum = colour_of(rgb_add(rgb_of(s->sum), light), s->sum.f, s->sum.t);
 }
 
 /* ---- a hit ---- */

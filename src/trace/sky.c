@@ -18,7 +18,7 @@ static Colour layered_sky(const SkySphere *sky, Vec3 p, Colour background)
     }
     sum = rgb_add(sum, rgb_mul(rgb_scaled(rgb_of(background), 1 - background.f - background.t), filter));
     filter = rgb_mul(filter, colour_transmittance(background));
-    return (Colour){ sum.r, sum.g, sum.b, 0, clamped_grey(filter) };
+    return colour_of(sum, 0, clamped_grey(filter));
 }
 
 /* POV: before 3.7, filter and transmit of the layers are multiplied each on its own. */
@@ -35,7 +35,7 @@ static Colour legacy_sky(const SkySphere *sky, Vec3 p, Colour background)
     }
     sum = rgb_mul(sum, sky->emission);
     sum = rgb_add(sum, rgb_mul(rgb_of(background), colour_transmittance(passed)));
-    return (Colour){ sum.r, sum.g, sum.b, 0, background.t * passed.t };
+    return colour_of(sum, 0, background.t * passed.t);
 }
 
 Colour sky_colour(const Tracing *tracing, Vec3 d, bool alpha)

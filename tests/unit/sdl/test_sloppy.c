@@ -147,7 +147,7 @@ static void colours_may_be_written_part_by_part(void **state)
     (void)state;
     Parsed *s = parsed(HEAD "light_source { <1,2,3> color red 4.0 green 4.0 blue 4.0 }");
     const LightSource *l = only_object(s)->light;
-    assert_true(l->colour.r == 4 && l->colour.g == 4 && l->colour.b == 4);
+    assert_true(l->colour[0] == 4 && l->colour[1] == 4 && l->colour[2] == 4);
     parsed_free(s);
 }
 
@@ -178,7 +178,7 @@ static void settings_may_be_repeated_and_follow_the_objects(void **state)
     Parsed *s = parsed("#version 3.7;\nsphere { 0, 1 }\nglobal_settings { assumed_gamma 1 ambient_light 2 }\n"
                        "global_settings { ambient_light rgb 3 }\ncamera { right x right 2*x }");
     only_object(s);
-    assert_true(s->scene.globals.ambient_light.r == 3);
+    assert_true(s->scene.globals.ambient_light[0] == 3);
     assert_true(s->scene.camera.right.x == 2);
     parsed_free(s);
 }
