@@ -366,6 +366,59 @@ static void written_files_read_back_as_they_were(void **state)
     unlink(path);
 }
 
+enum { LONG = 20000 };
+
+/* A grey PNG of one row: what its filter leaves is how much each byte differs from the one before. */
+static void assert_row_survives(const uint8_t *row, int n)
+{
+    static float rgba[4 * LONG];
+    char path[] = "/tmp/whit-test-XXXXXX", error[IMAGE_ERROR] = "";
+    close(mkstemp(path));
+    for (int i = 0; i < 4 * n; i++)
+        rgba[i] = i % 4 == 3 ? 1 : (float)row[i / 4] / 255.0f;
+    ImageWriting how = { .format = IMAGE_PNG, .quantising = { .bits = 8, .grey = true } };
+    assert_true(image_write(path, rgba, n, 1, &how, error));
+    Arena a;
+    arena_init(&a);
+    Image *im = image_read(&a, read_file(&a, path), IMAGE_PNG, &exact, error);
+    if (im == NULL)
+        fail_msg("%s", error);
+    assert_memory_equal(im->pixels, row, (size_t)n);
+    arena_free(&a);
+    unlink(path);
+}
+
+static void runs_of_every_length_are_written(void **state)
+{
+    (void)state;
+    static uint8_t row[LONG];
+    for (int length = 1; length < 530; length++) {
+        for (int i = 0; i < 2 * length; i++)
+            row[i] = (uint8_t)(row[i > 0 ? i - 1 : 0] + (i < length ? 3 : 7));
+        assert_row_survives(row, 2 * length);
+    }
+}
+
+/* Differences as frequent as Lucas' numbers make the deepest of trees: 18, where codes may have 15 bits. */
+static void codes_that_would_be_too_long_are_shortened(void **state)
+{
+    (void)state;
+    static uint8_t row[LONG];
+    int all = 7, times[16] = { 3, 4 }, due[16] = { 0 };
+    for (int k = 2; k < 16; k++)
+        all += times[k] = times[k - 1] + times[k - 2];
+    for (int i = 0; i < all; i++) {            /* the one longest due, so that there are no runs of one difference */
+        int most = 0;
+        for (int k = 0; k < 16; k++) {
+            due[k] += times[k];
+            most = due[k] > due[most] ? k : most;
+        }
+        due[most] -= all;
+        row[i] = (uint8_t)(row[i > 0 ? i - 1 : 0] + 5 + most);
+    }
+    assert_row_survives(row, all);
+}
+
 static void jpeg_is_close(void **state)
 {
     (void)state;
@@ -429,6 +482,8 @@ int main(void)
         cmocka_unit_test(a_tiff_is_read_and_a_cut_one_refused),
 #endif
         cmocka_unit_test(written_files_read_back_as_they_were),
+        cmocka_unit_test(runs_of_every_length_are_written),
+        cmocka_unit_test(codes_that_would_be_too_long_are_shortened),
         cmocka_unit_test(jpeg_is_close),
         cmocka_unit_test(a_failed_write_leaves_the_old_file_and_no_other),
     };
