@@ -43,9 +43,9 @@ ifeq ($$(call have,$(2)),1)
 endif
 endef
 $(eval $(call optional,PNG,libpng))
-$(eval $(call optional,JPEG,libjpeg))
-$(eval $(call optional,GIF,libgif))
-$(eval $(call optional,FREETYPE,freetype2))
+$(eval $(call late,JPEG,libjpeg,jpeg))
+$(eval $(call late,GIF,libgif,gif))
+$(eval $(call late,FREETYPE,freetype2,freetype))
 $(eval $(call late,TIFF,libtiff-4,tiff))
 $(eval $(call late,FONTCONFIG,fontconfig,fontconfig))
 LIBS += -ldl

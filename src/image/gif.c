@@ -14,6 +14,14 @@ static bool probe(Str bytes)
 #ifdef HAVE_GIF
 #include <gif_lib.h>
 
+#include "base/library.h"
+
+#define FUNCTIONS(each)                                                                                                \
+    each(DGifOpen) each(DGifGetRecordType) each(DGifGetImageDesc) each(DGifGetExtension) each(DGifGetExtensionNext)    \
+    each(DGifGetLine) each(DGifCloseFile) each(GifErrorString)
+
+typedef struct Library { FUNCTIONS(LIBRARY_FIELD) } Library;
+
 enum { GIF_CODES = 4096 };                     /* a code stands for so many pixels at most */
 
 static int read_bytes(GifFileType *gif, GifByteType *to, int n)
@@ -25,33 +33,33 @@ static int read_bytes(GifFileType *gif, GifByteType *to, int n)
     return (int)most;
 }
 
-static bool gif_fail(const GifFileType *gif, char error[IMAGE_ERROR])
+static bool gif_fail(const Library *lib, const GifFileType *gif, char error[IMAGE_ERROR])
 {
     if (gif->Error == D_GIF_ERR_READ_FAILED || gif->Error == D_GIF_ERR_EOF_TOO_SOON)
         return codec_fail(error, "the file ends before its last pixel");
-    const char *why = GifErrorString(gif->Error);
+    const char *why = lib->GifErrorString(gif->Error);
     return codec_fail(error, "damaged GIF: %s", why != NULL ? why : "its data make no sense");
 }
 
 /* Goes to the first picture; of the extensions on the way, one names the transparent entry of the palette. */
-static bool find_picture(GifFileType *gif, int *transparent, char error[IMAGE_ERROR])
+static bool find_picture(const Library *lib, GifFileType *gif, int *transparent, char error[IMAGE_ERROR])
 {
     GifRecordType type;
-    while (DGifGetRecordType(gif, &type) == GIF_OK) {
+    while (lib->DGifGetRecordType(gif, &type) == GIF_OK) {
         if (type == IMAGE_DESC_RECORD_TYPE)
-            return DGifGetImageDesc(gif) == GIF_OK || gif_fail(gif, error);
+            return lib->DGifGetImageDesc(gif) == GIF_OK || gif_fail(lib, gif, error);
         if (type != EXTENSION_RECORD_TYPE)
             break;
         int label;
         GifByteType *data;
-        bool more = DGifGetExtension(gif, &label, &data) == GIF_OK;
+        bool more = lib->DGifGetExtension(gif, &label, &data) == GIF_OK;
         while (more && data != NULL) {
             if (label == GRAPHICS_EXT_FUNC_CODE && data[0] == 4 && (data[1] & 1))
                 *transparent = data[4];
-            more = DGifGetExtensionNext(gif, &data) == GIF_OK;
+            more = lib->DGifGetExtensionNext(gif, &data) == GIF_OK;
         }
         if (!more)
-            return gif_fail(gif, error);
+            return gif_fail(lib, gif, error);
     }
     return codec_fail(error, "there is no picture in this GIF file");
 }
@@ -72,21 +80,21 @@ static bool take_palette(const GifFileType *gif, int transparent, Image *im, cha
 }
 
 /* Rows of an interlaced picture come as every 8th from 0, every 8th from 4, every 4th from 2, every 2nd from 1. */
-static bool read_rows(GifFileType *gif, uint8_t *pixels, char error[IMAGE_ERROR])
+static bool read_rows(const Library *lib, GifFileType *gif, uint8_t *pixels, char error[IMAGE_ERROR])
 {
     static const int first[] = { 0, 4, 2, 1 }, step[] = { 8, 8, 4, 2 };
     int width = gif->Image.Width, height = gif->Image.Height, passes = gif->Image.Interlace ? 4 : 1;
     for (int pass = 0; pass < passes; pass++)
         for (int y = first[pass]; y < height; y += passes > 1 ? step[pass] : 1)
-            if (DGifGetLine(gif, pixels + (size_t)y * (size_t)width, width) != GIF_OK)
-                return gif_fail(gif, error);
+            if (lib->DGifGetLine(gif, pixels + (size_t)y * (size_t)width, width) != GIF_OK)
+                return gif_fail(lib, gif, error);
     return true;
 }
 
-static bool read_with(GifFileType *gif, Str bytes, Image *im, void *pixels, char error[IMAGE_ERROR])
+static bool read_with(const Library *lib, GifFileType *gif, Str bytes, Image *im, void *pixels, char error[IMAGE_ERROR])
 {
     int transparent = -1;
-    if (!find_picture(gif, &transparent, error) ||
+    if (!find_picture(lib, gif, &transparent, error) ||
         !codec_size(gif->Image.Width, gif->Image.Height, bytes, GIF_CODES, error) || !take_palette(gif, transparent, im, error))
         return false;
     im->width = gif->Image.Width;
@@ -94,18 +102,22 @@ static bool read_with(GifFileType *gif, Str bytes, Image *im, void *pixels, char
     im->channels = 1;
     im->max_value = 255;
     im->indexed = im->has_alpha = true;        /* POV: also without a transparent entry */
-    return pixels == NULL || read_rows(gif, pixels, error);
+    return pixels == NULL || read_rows(lib, gif, pixels, error);
 }
 
 static bool read_image(Str bytes, Image *im, void *pixels, char error[IMAGE_ERROR])
 {
+    static const char *const names[] = { FUNCTIONS(LIBRARY_NAME) };
+    Library lib;
+    if (!library_load(LIBRARY_GIF, names, sizeof names / sizeof *names, &lib))
+        return codec_fail(error, "giflib, which reads GIF files, is not installed");
     int code = 0;
     ByteReader from = reader_of(bytes);
-    GifFileType *gif = DGifOpen(&from, read_bytes, &code);
+    GifFileType *gif = lib.DGifOpen(&from, read_bytes, &code);
     if (gif == NULL)
         return codec_fail(error, probe(bytes) ? "there is no picture in this GIF file" : "this is no GIF file");
-    bool read = read_with(gif, bytes, im, pixels, error);
-    DGifCloseFile(gif, &code);
+    bool read = read_with(&lib, gif, bytes, im, pixels, error);
+    lib.DGifCloseFile(gif, &code);
     return read;
 }
 #else

@@ -15,6 +15,16 @@ static bool probe(Str bytes)
 #include <jpeglib.h>
 #include <jerror.h>
 
+#include "base/library.h"
+
+#define FUNCTIONS(each)                                                                                                \
+    each(jpeg_std_error) each(jpeg_CreateDecompress) each(jpeg_mem_src) each(jpeg_read_header) each(jpeg_start_decompress)      \
+    each(jpeg_read_scanlines) each(jpeg_finish_decompress) each(jpeg_destroy_decompress) each(jpeg_CreateCompress)     \
+    each(jpeg_stdio_dest) each(jpeg_set_defaults) each(jpeg_set_quality) each(jpeg_start_compress)                     \
+    each(jpeg_write_scanlines) each(jpeg_finish_compress) each(jpeg_destroy_compress)
+
+typedef struct Library { FUNCTIONS(LIBRARY_FIELD) } Library;
+
 typedef struct Errors {
     struct jpeg_error_mgr base;
     jmp_buf landing;
@@ -40,19 +50,27 @@ static void on_message(j_common_ptr j, int level)
     }
 }
 
-static struct jpeg_error_mgr *errors_set(Errors *e, char *text)
+static bool library(Library *lib, char error[IMAGE_ERROR])
 {
-    jpeg_std_error(&e->base);
+    static const char *const names[] = { FUNCTIONS(LIBRARY_NAME) };
+    return library_load(LIBRARY_JPEG, names, sizeof names / sizeof *names, lib) ||
+           codec_fail(error, "libjpeg, which reads and writes JPEG files, is not installed");
+}
+
+static struct jpeg_error_mgr *errors_set(const Library *lib, Errors *e, char *text)
+{
+    lib->jpeg_std_error(&e->base);
     e->base.error_exit = on_error;
     e->base.emit_message = on_message;
     e->text = text;
     return &e->base;
 }
 
-static bool read_with(struct jpeg_decompress_struct *j, Str bytes, Image *im, unsigned char *pixels, char error[IMAGE_ERROR])
+static bool read_with(const Library *lib, struct jpeg_decompress_struct *j, Str bytes, Image *im, unsigned char *pixels,
+                      char error[IMAGE_ERROR])
 {
-    jpeg_mem_src(j, (const unsigned char *)bytes.data, bytes.n);
-    jpeg_read_header(j, TRUE);
+    lib->jpeg_mem_src(j, (const unsigned char *)bytes.data, bytes.n);
+    lib->jpeg_read_header(j, TRUE);
     /* a scan of zeros needs little more than a bit for each block of 64 */
     if (!codec_size((long)j->image_width, (long)j->image_height, bytes, 4096, error))
         return false;
@@ -65,13 +83,13 @@ static bool read_with(struct jpeg_decompress_struct *j, Str bytes, Image *im, un
     im->max_value = 255;
     if (pixels == NULL)
         return true;
-    jpeg_start_decompress(j);
+    lib->jpeg_start_decompress(j);
     size_t row = (size_t)im->width * (size_t)im->channels;
     while (j->output_scanline < j->output_height) {
         JSAMPROW to = pixels + row * j->output_scanline;
-        jpeg_read_scanlines(j, &to, 1);
+        lib->jpeg_read_scanlines(j, &to, 1);
     }
-    jpeg_finish_decompress(j);
+    lib->jpeg_finish_decompress(j);
     return true;
 }
 
@@ -79,54 +97,60 @@ static bool read_image(Str bytes, Image *im, void *pixels, char error[IMAGE_ERRO
 {
     if (!probe(bytes))
         return codec_fail(error, "this is no JPEG file");
+    Library lib;
+    if (!library(&lib, error))
+        return false;
     struct jpeg_decompress_struct j;
     Errors errors;
-    j.err = errors_set(&errors, error);
+    j.err = errors_set(&lib, &errors, error);
     bool ok = false;
     if (setjmp(errors.landing) == 0) {
-        jpeg_create_decompress(&j);
-        ok = read_with(&j, bytes, im, pixels, error);
+        lib.jpeg_CreateDecompress(&j, JPEG_LIB_VERSION, sizeof j);
+        ok = read_with(&lib, &j, bytes, im, pixels, error);
     }
-    jpeg_destroy_decompress(&j);
+    lib.jpeg_destroy_decompress(&j);
     return ok;
 }
 
-static void write_with(struct jpeg_compress_struct *j, FILE *to, const Codes *c, unsigned char *row)
+static void write_with(const Library *lib, struct jpeg_compress_struct *j, FILE *to, const Codes *c, unsigned char *row)
 {
-    jpeg_stdio_dest(j, to);
+    lib->jpeg_stdio_dest(j, to);
     j->image_width = (JDIMENSION)c->width;
     j->image_height = (JDIMENSION)c->height;
     j->input_components = 3;
     j->in_color_space = JCS_RGB;
-    jpeg_set_defaults(j);
+    lib->jpeg_set_defaults(j);
     int quality = c->how->quality;
-    jpeg_set_quality(j, quality <= 0 ? 85 : quality > 100 ? 100 : quality, TRUE);
-    jpeg_start_compress(j, TRUE);
+    lib->jpeg_set_quality(j, quality <= 0 ? 85 : quality > 100 ? 100 : quality, TRUE);
+    lib->jpeg_start_compress(j, TRUE);
     size_t n = (size_t)c->width * 3;
     for (int y = 0; y < c->height; y++) {
         for (size_t i = 0; i < n; i++)
             row[i] = (unsigned char)c->code[(size_t)y * n + i];
         JSAMPROW from = row;
-        jpeg_write_scanlines(j, &from, 1);
+        lib->jpeg_write_scanlines(j, &from, 1);
     }
-    jpeg_finish_compress(j);
+    lib->jpeg_finish_compress(j);
 }
 
 static bool write_image(FILE *to, const Codes *c, char error[IMAGE_ERROR])
 {
+    Library lib;
+    if (!library(&lib, error))
+        return false;
     struct jpeg_compress_struct j;
     Errors errors;
-    j.err = errors_set(&errors, error);
+    j.err = errors_set(&lib, &errors, error);
     unsigned char *const row = malloc((size_t)c->width * 3);
     if (row == NULL)
         return codec_fail(error, "not enough memory");
     bool ok = false;
     if (setjmp(errors.landing) == 0) {
-        jpeg_create_compress(&j);
-        write_with(&j, to, c, row);
+        lib.jpeg_CreateCompress(&j, JPEG_LIB_VERSION, sizeof j);
+        write_with(&lib, &j, to, c, row);
         ok = true;
     }
-    jpeg_destroy_compress(&j);
+    lib.jpeg_destroy_compress(&j);
     free(row);
     return ok;
 }

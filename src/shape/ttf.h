@@ -9,6 +9,7 @@
 
 typedef struct Ttf {
     Arena *arena;
+    const void *library;                       /* what is called of FreeType */
     void *face;                                /* FT_Face */
     double em;                                 /* 1 / units per em */
 } Ttf;
