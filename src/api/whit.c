@@ -230,7 +230,7 @@ bool whit_check(Whit *w, const char *path)
 
 bool whit_load_text(Whit *w, const char *name, const char *text, size_t bytes)
 {
-    Str own = { arena_copy(&w->arena, text, bytes), (uint32_t)bytes };
+    Str own = str_copy(&w->arena, (Str){ text, (uint32_t)bytes });
     return load_text(w, str_copy(&w->arena, str_of(name)), own, true);
 }
 

@@ -44,22 +44,6 @@ Blocks *blocks_new(Parser *p, Scene *scene)
     return b;
 }
 
-void block_open(Parser *p, const char *word)
-{
-    if (parse_peek(p) != TOK_OPEN)
-        parse_fail(p, "Missing { after '%s', %s found instead", word, token_description(p));
-    parse_open(p);
-}
-
-void block_close(Parser *p, const char *word)
-{
-    if (parse_peek(p) == TOK_CLOSE) {
-        parse_close(p);
-        return;
-    }
-    parse_fail(p, "No matching } in '%s', %s found instead", word, token_description(p));
-}
-
 void map_misplaced(Parser *p, int keyword)
 {
     const char *where = keyword == KW_NORMAL_MAP || keyword == KW_SLOPE_MAP || keyword == KW_BUMP_SIZE
@@ -97,7 +81,7 @@ static Affine matrix(Parser *p)
 {
     double rows[12];
     Reader *r = cursor_top(p);
-    if (p->have || !r->is_file || !lex_numbers_literal(&r->lexer, 12, rows)) {
+    if (p->have || !r->is_file || !literal_numbers(&r->lexer, 12, rows)) {
         parse_expect(p, TOK_LESS);
         for (int i = 0; i < 12; i++)
             rows[i] = i == 0 ? parse_float(p) : parse_next_float(p);

@@ -34,6 +34,9 @@ const void *parse_take_block(Parser *p, BlockKind kind);
 /* Is the next token a colour word (color, rgb, red...) or an identifier that holds a colour? (01-language, section 5) */
 bool parse_at_colour(Parser *p);
 
+void block_open(Parser *p, const char *word);  /* the brace after `word`, or "Missing { after 'word', ... found instead" */
+void block_close(Parser *p, const char *word); /* the closing brace, or "No matching } in 'word', ... found instead" */
+
 /* The next token as it stands in the text; no directive runs, no macro is called. TOK_END where a file, a loop or a macro ends. */
 int parse_peek_raw(Parser *p);
 

@@ -52,8 +52,6 @@ typedef struct Blocks {
 Blocks *blocks_new(Parser *p, Scene *scene);
 Blocks *parse_blocks(const Parser *p);
 const char *parse_word(int keyword);           /* its spelling */
-void block_open(Parser *p, const char *word);  /* the brace after `word`, or "Missing { after 'word', ... found instead" */
-void block_close(Parser *p, const char *word); /* the closing brace, or "No matching } in 'word', ... found instead" */
 _Noreturn void map_misplaced(Parser *p, int keyword);      /* a map or the like in a block of another kind */
 bool parse_move(Parser *p, Affine *move);      /* one translate, rotate, scale, matrix or transform; not composed */
 

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "sdl/number.h"
 #include "sdl/parser.h"
 
 enum { REPLACEMENT = 0xfffd, LONGEST = 1 << 28 };

@@ -34,7 +34,7 @@ typedef struct SdlOptions {
     const volatile int *stop;                  /* NULL, or: parsing fails where it stands once this is not 0 */
 } SdlOptions;
 
-/* Parses `text` of the file `path`. The caller has set the landing of diag (diag_landing); mistakes jump there. */
+/* Parses `text` of the file `path`; a zero stands behind it. The caller has set the landing of diag (diag_landing); mistakes jump there. */
 void sdl_parse(Arena *scene_arena, Diag *diag, const SdlHost *host, const SdlOptions *options, Str path, Str text,
                Scene *out);
 

@@ -1,16 +1,17 @@
 /* lex.c - from bytes to tokens, straight from the text of a file (01-language, section 1). */
+#include "sdl/lex.h"
+
 #include <string.h>
 
+#include "sdl/number.h"
 #include "sdl/parser.h"
-
-enum { C_ILLEGAL, C_BLANK, C_LINE, C_LETTER, C_DIGIT, C_QUOTE, C_SLASH, C_HASH, C_DOT, C_LESS, C_MARK };
 
 #define L C_LETTER
 #define D C_DIGIT
 #define B C_BLANK
 #define M C_MARK
 
-static const unsigned char class_of[256] = {
+const unsigned char lex_class[256] = {
     B, 0, 0, 0, 0, 0, 0, 0, 0, B, C_LINE, B, B, C_LINE, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, B, 0, 0, 0, 0, 0,
     B, M, C_QUOTE, C_HASH, M, M, M, M, M, M, M, M, M, M, C_DOT, C_SLASH, D, D, D, D, D, D, D, D, D, D, M, M, C_LESS, M, M, M,
     M, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, M, M, M, M, L,
@@ -29,11 +30,6 @@ static const uint16_t mark_of[128] = {
     ['>'] = TOK_GREATER, ['@'] = TOK_OTHER, ['\\'] = TOK_OTHER, ['`'] = TOK_OTHER, ['$'] = TOK_OTHER, ['%'] = TOK_OTHER,
     ['^'] = TOK_OTHER, ['~'] = TOK_OTHER, ['\''] = TOK_OTHER,
 };
-
-static inline unsigned char class_at(const char *s)
-{
-    return class_of[(unsigned char)*s];
-}
 
 void lex_start(Lexer *l, uint16_t source, Str text)
 {
@@ -71,7 +67,7 @@ static inline const char *line_end(Lexer *l, const char *s)
 {
     char other = *s == '\n' ? '\r' : '\n';
     s++;
-    if (s < l->end && *s == other)
+    if (*s == other)
         s++;
     l->line++;
     l->line_start = s;
@@ -102,35 +98,46 @@ static void block_comment(Parser *p, Lexer *l)
     l->at = s;
 }
 
-static void skip_blank(Parser *p, Lexer *l)
+const char *lex_blanks(Lexer *l, const char *s)
 {
-    const char *s = l->at, *end = l->end;
-    while (s < end) {
-        unsigned char c = class_at(s);
-        if (c == C_BLANK) {
-            s++;
-        } else if (c == C_LINE) {
+    for (;;) {
+        unsigned char class = class_at(s);
+        if (class == C_LINE)
             s = line_end(l, s);
-        } else if (c == C_SLASH && end - s > 1 && s[1] == '/') {
-            const char *lf = memchr(s, '\n', (size_t)(end - s));
-            const char *stop = lf ? lf : end;
-            const char *cr = memchr(s, '\r', (size_t)(stop - s));
-            s = cr ? cr : stop;
-        } else if (c == C_SLASH && end - s > 1 && s[1] == '*') {
-            l->at = s;
-            block_comment(p, l);
-            s = l->at;
-        } else {
-            break;
-        }
+        else if (class == C_BLANK && s < l->end)
+            s++;
+        else
+            return s;
     }
-    l->at = s;
+}
+
+/* Behind `//`. */
+static const char *line_comment(const Lexer *l, const char *s)
+{
+    const char *lf = memchr(s, '\n', (size_t)(l->end - s));
+    const char *stop = lf ? lf : l->end;
+    const char *cr = memchr(s, '\r', (size_t)(stop - s));
+    return cr ? cr : stop;
+}
+
+static inline void skip_blank(Parser *p, Lexer *l)
+{
+    l->at = lex_blank(l, l->at);
+    while (*l->at == '/') {
+        if (l->at[1] == '/')
+            l->at = line_comment(l, l->at);
+        else if (l->at[1] == '*')
+            block_comment(p, l);
+        else
+            return;
+        l->at = lex_blank(l, l->at);
+    }
 }
 
 static void word(Parser *p, Lexer *l, Token *out)
 {
-    const char *s = l->at, *end = l->end;
-    while (s < end && (class_at(s) == C_LETTER || class_at(s) == C_DIGIT))
+    const char *s = l->at;
+    while (is_word_at(s))
         s++;
     size_t n = (size_t)(s - l->at);
     if (n > MAX_LITERAL)
@@ -172,7 +179,7 @@ static void number(Parser *p, Lexer *l, Token *out)
     out->kind = TOK_NUMBER;
     const char *start = l->at;
     number_scan(&l->at, l->end, &out->number);
-    if (l->at < l->end && *l->at == '.' && memchr(start, '.', (size_t)(l->at - start)))
+    if (*l->at == '.' && memchr(start, '.', (size_t)(l->at - start)))
         fail(p->diag, lex_loc(l), "Unexpected additional '.' in floating-point number");
 }
 
@@ -181,7 +188,7 @@ static bool hash(Parser *p, Lexer *l, Token *out)
 {
     l->at++;
     skip_blank(p, l);
-    if (l->at >= l->end || class_at(l->at) != C_LETTER)
+    if (class_at(l->at) != C_LETTER)
         return false;
     Token name = { .loc = lex_loc(l) };
     word(p, l, &name);
@@ -199,19 +206,14 @@ static bool hash(Parser *p, Lexer *l, Token *out)
 void lex_next(Parser *p, Lexer *l, Token *out)
 {
     for (;;) {
-        unsigned char class = l->at < l->end ? class_at(l->at) : C_BLANK;
-        if (class == C_BLANK || class == C_LINE || class == C_SLASH) {
-            skip_blank(p, l);
-            class = l->at < l->end ? class_at(l->at) : C_BLANK;
-        }
+        skip_blank(p, l);
         out->loc = lex_loc(l);
-        if (l->at >= l->end) {
+        switch (class_at(l->at)) {
+        case C_BLANK:
             out->loc = end_loc(p, l);
             out->kind = TOK_END;
             out->sym = NULL;
             return;
-        }
-        switch (class) {
         case C_LETTER: word(p, l, out); return;
         case C_DIGIT: number(p, l, out); return;
         case C_QUOTE: string(p, l, out); return;
@@ -220,7 +222,7 @@ void lex_next(Parser *p, Lexer *l, Token *out)
                 return;
             continue;
         case C_DOT:
-            if (l->at + 1 < l->end && class_at(l->at + 1) == C_DIGIT) {
+            if (is_digit(l->at[1])) {
                 number(p, l, out);
                 return;
             }
@@ -234,7 +236,7 @@ void lex_next(Parser *p, Lexer *l, Token *out)
         case C_LESS:
         case C_MARK: {
             char c = *l->at++;
-            bool equal = l->at < l->end && *l->at == '=';
+            bool equal = *l->at == '=';
             out->kind = c == '<' ? TOK_LESS : mark_of[(unsigned char)c];
             out->text = l->at - 1;
             if (equal && (c == '<' || c == '>' || c == '!')) {
@@ -252,7 +254,7 @@ void lex_next(Parser *p, Lexer *l, Token *out)
 bool lex_accept(Parser *p, Lexer *l, char c)
 {
     skip_blank(p, l);
-    if (l->at >= l->end || *l->at != c)
+    if (*l->at != c)
         return false;
     l->at++;
     return true;
@@ -262,193 +264,4 @@ int lex_peek_char(Parser *p, Lexer *l)
 {
     skip_blank(p, l);
     return l->at < l->end ? (unsigned char)*l->at : -1;
-}
-
-/* Blanks and line ends; a comment simply ends the fast path. */
-static inline const char *fast_blank(Lexer *l, const char *s)
-{
-    while (s < l->end) {
-        unsigned char c = class_at(s);
-        if (c == C_BLANK)
-            s++;
-        else if (c == C_LINE)
-            s = line_end(l, s);
-        else
-            break;
-    }
-    return s;
-}
-
-/* A literal with a sign or none, and the blanks behind it; NULL if there is none. */
-static const char *fast_number(Lexer *l, const char *s, double *out)
-{
-    s = fast_blank(l, s);
-    bool negative = s < l->end && *s == '-';
-    s += negative;
-    if (s >= l->end || !(class_at(s) == C_DIGIT || (*s == '.' && s + 1 < l->end && class_at(s + 1) == C_DIGIT)))
-        return NULL;
-    double v = 0;
-    if (!number_scan(&s, l->end, &v))
-        return NULL;
-    *out = negative ? -v : v;
-    return fast_blank(l, s);
-}
-
-/* n literals with commas between them and a '>' behind the last. */
-static bool fast_numbers(Lexer *l, const char **at, int n, double *out)
-{
-    const char *s = *at;
-    for (int i = 0; i < n; i++) {
-        s = fast_number(l, s, &out[i]);
-        if (s == NULL)
-            return false;
-        if (s >= l->end || *s != (i < n - 1 ? ',' : '>'))
-            return false;
-        s++;
-    }
-    *at = s;
-    return true;
-}
-
-/* Exactly this word, or exactly this mark, after blanks; NULL if something else comes. */
-static const char *fast_word(Lexer *l, const char *s, const char *word, size_t n)
-{
-    s = fast_blank(l, s);
-    if ((size_t)(l->end - s) <= n || memcmp(s, word, n) != 0 || class_at(s + n) == C_LETTER || class_at(s + n) == C_DIGIT)
-        return NULL;
-    return s + n;
-}
-
-static const char *fast_mark(Lexer *l, const char *s, char mark)
-{
-    s = fast_blank(l, s);
-    return s < l->end && *s == mark ? s + 1 : NULL;
-}
-
-/* Behind `rgb`, `rgbf`, `rgbt` or `rgbft`, with a `color` before it or not. */
-static const char *fast_rgb(Lexer *l, const char *s, bool *filter, bool *transmit)
-{
-    s = fast_blank(l, s);                      /* once: lines are counted */
-    const char *color = fast_word(l, s, "color", 5);
-    s = color ? fast_blank(l, color) : s;
-    if (l->end - s < 6 || memcmp(s, "rgb", 3) != 0)
-        return NULL;
-    s += 3;
-    *filter = *s == 'f';
-    s += *filter;
-    *transmit = *s == 't';
-    s += *transmit;
-    return class_at(s) == C_LETTER || class_at(s) == C_DIGIT ? NULL : s;
-}
-
-static const char *fast_comma(Lexer *l, const char *s)
-{
-    s = fast_blank(l, s);
-    return s < l->end && *s == ',' ? fast_blank(l, s + 1) : s;
-}
-
-/* What may follow without going on with the expression. A letter may be a macro: not here. `<1,2,3> <4` compares only where a
- * full expression is asked for, and that never comes this way. */
-static bool fast_end(Lexer *l, const char *s)
-{
-    return s < l->end && (*s == ',' || *s == '}' || *s == '<' || *s == ')');
-}
-
-bool lex_vector_literal(Lexer *lexer, LexBefore before, double out[3])
-{
-    Lexer l = *lexer;                          /* given up without a trace when anything is unusual */
-    const char *s = l.at;
-    if (before != LEX_INSIDE) {
-        s = before == LEX_COMMA ? fast_comma(&l, s) : fast_blank(&l, s);
-        if (s >= l.end || *s != '<')
-            return false;
-        s++;
-    }
-    if (!fast_numbers(&l, &s, 3, out))
-        return false;
-    s = fast_blank(&l, s);
-    if (!fast_end(&l, s) && !(s < l.end && class_at(s) == C_DIGIT))
-        return false;
-    l.at = s;
-    *lexer = l;
-    return true;
-}
-
-bool lex_number_literal(Lexer *lexer, LexBefore before, double *out)
-{
-    Lexer l = *lexer;
-    const char *s = before == LEX_COMMA ? fast_comma(&l, l.at) : l.at;
-    s = fast_number(&l, s, out);
-    if (s == NULL || !fast_end(&l, s))
-        return false;
-    l.at = s;
-    *lexer = l;
-    return true;
-}
-
-bool lex_numbers_literal(Lexer *lexer, int n, double *out)
-{
-    Lexer l = *lexer;
-    const char *s = fast_mark(&l, l.at, '<');
-    if (!s || !fast_numbers(&l, &s, n, out))
-        return false;
-    l.at = s;
-    *lexer = l;
-    return true;
-}
-
-bool lex_texture_literal(Lexer *lexer, Colour *out)
-{
-    Lexer l = *lexer;
-    const char *s = fast_word(&l, l.at, "texture", 7);
-    if (!s)
-        return false;
-    l.at = s;
-    if (!lex_pigment_literal(&l, true, out))
-        return false;
-    *lexer = l;
-    return true;
-}
-
-int lex_argument_literal(Lexer *lexer, double out[5])
-{
-    Lexer l = *lexer;
-    const char *s = fast_blank(&l, l.at);
-    int n = 0;
-    if (s >= l.end)
-        return 0;
-    if (*s != '<') {
-        s = fast_number(&l, s, &out[n++]);
-    } else {
-        s++;
-        do
-            s = fast_number(&l, s, &out[n++]);
-        while (s != NULL && n < 5 && s < l.end && *s == ',' && s++);
-        s = s != NULL && n > 1 ? fast_mark(&l, s, '>') : NULL;
-    }
-    s = s != NULL ? fast_blank(&l, s) : NULL;
-    if (s == NULL || s >= l.end || (*s != ',' && *s != ')'))
-        return 0;
-    l.at = s + (*s == ',');
-    *lexer = l;
-    return n;
-}
-
-bool lex_pigment_literal(Lexer *lexer, bool texture, Colour *out)
-{
-    Lexer l = *lexer;
-    const char *s = fast_mark(&l, l.at, '{');
-    bool filter, transmit;
-    double v[5];
-    if (s && texture && (s = fast_word(&l, s, "pigment", 7)))
-        s = fast_mark(&l, s, '{');
-    if (!s || !(s = fast_rgb(&l, s, &filter, &transmit)) || !(s = fast_mark(&l, s, '<'))
-        || !fast_numbers(&l, &s, 3 + filter + transmit, v) || !(s = fast_mark(&l, s, '}')))
-        return false;
-    if (texture && !(s = fast_mark(&l, s, '}')))
-        return false;
-    *out = (Colour){ (float)v[0], (float)v[1], (float)v[2], filter ? (float)v[3] : 0, transmit ? (float)v[3 + filter] : 0 };
-    l.at = s;
-    *lexer = l;
-    return true;
 }

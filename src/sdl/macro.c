@@ -93,7 +93,7 @@ static bool plain_argument(Parser *p, Argument *a)
     if (p->have)
         return false;
     if (r->is_file)
-        n.terms = lex_argument_literal(&r->lexer, n.v);
+        n.terms = literal_argument(&r->lexer, n.v);
     if (r->is_file ? n.terms == 0 : !fast_argument(p, &n, &a->by_reference))
         return false;
     if (!a->by_reference)

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "sdl/token.h"
+#include "sdl/number.h"
 
 enum { FIVE_MIN = -64, FIVE_MAX = 64, MAX_DIGITS = 19, MAX_EXPONENT = 99999 };
 
@@ -152,19 +152,28 @@ static double slow(const char *from, const char *end, int exponent)
     return strtod(text, NULL);
 }
 
-static inline bool is_digit(char c)
+/* Behind 'e': the exponent with its sign. */
+static const char *exponent_digits(const char *s, const char *end, int *out)
 {
-    return (unsigned char)(c - '0') < 10;
+    bool negative = false;
+    int e = 0;
+    if (s < end && (*s == '+' || *s == '-'))
+        negative = *s++ == '-';
+    for (; s < end && is_digit(*s); s++)
+        if (e < MAX_EXPONENT)
+            e = e * 10 + (*s - '0');
+    *out = negative ? -e : e;
+    return s;
 }
 
-bool number_scan(const char **at, const char *end, double *out)
+bool number_scan_any(const char **at, const char *end, double *out)
 {
     const char *s = *at, *first = s;
     uint64_t w = 0;
     while (s < end && is_digit(*s))
         w = w * 10 + (uint64_t)(*s++ - '0');   /* wraps beyond 19 digits: then not used */
     ptrdiff_t n_digits = s - first;
-    int exponent = 0;
+    int exponent = 0, written = 0;
     if (s < end && *s == '.') {
         const char *fraction = ++s;
         while (s < end && is_digit(*s))
@@ -176,20 +185,8 @@ bool number_scan(const char **at, const char *end, double *out)
     }
     if (n_digits == 0)
         return false;
-    int written = 0;
-    if (s < end && (*s == 'e' || *s == 'E')) {
-        bool negative = false;
-        s++;
-        if (s < end && (*s == '+' || *s == '-'))
-            negative = *s++ == '-';
-        while (s < end && is_digit(*s)) {
-            if (written < MAX_EXPONENT)
-                written = written * 10 + (*s - '0');
-            s++;
-        }
-        if (negative)
-            written = -written;
-    }
+    if (s < end && (*s == 'e' || *s == 'E'))
+        s = exponent_digits(s + 1, end, &written);
     *at = s;
     int q = exponent + written;
     if (n_digits <= MAX_DIGITS) {

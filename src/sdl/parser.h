@@ -8,6 +8,7 @@
 #include "base/array.h"
 #include "base/file.h"
 #include "sdl/host.h"
+#include "sdl/literal.h"
 #include "sdl/value.h"
 
 enum {                                         /* 01-language, section 34 */
@@ -176,6 +177,20 @@ static inline int cursor_look(Parser *p)
     }
     cursor_fetch(p);
     return p->token.kind;
+}
+
+/* The mark `c`, of that kind, is taken if it can be seen to be next: most braces and commas need no token. False: look. */
+static inline bool cursor_take_mark(Parser *p, int kind, char c)
+{
+    Reader *r = cursor_top(p);
+    if (p->have)
+        return false;
+    if (r->is_file)
+        return literal_mark(&r->lexer, c);
+    if (r->at == r->n || r->tokens[r->at].kind != kind)
+        return false;
+    r->at++;
+    return true;
 }
 
 /* flow.c */

@@ -48,6 +48,12 @@ void parse_skip(Parser *p)
 
 bool parse_accept(Parser *p, int kind)
 {
+    static const char mark[TOK_OTHER + 1] = {
+        [TOK_OPEN] = '{', [TOK_CLOSE] = '}', [TOK_LPAREN] = '(', [TOK_RPAREN] = ')', [TOK_LBRACKET] = '[', [TOK_RBRACKET] = ']',
+        [TOK_COMMA] = ',', [TOK_SEMICOLON] = ';',
+    };
+    if (mark[kind] && cursor_take_mark(p, kind, mark[kind]))
+        return true;
     cursor_look(p);
     if (p->token.kind != kind)
         return false;
@@ -145,16 +151,35 @@ void parse_expect(Parser *p, int kind)
         parse_expected(p, token_keyword_text(kind));
 }
 
+static void brace_opened(Parser *p)
+{
+    if (++p->braces > MAX_BRACES)
+        fail(p->diag, cursor_loc(p), "more than %d braces are open", MAX_BRACES);
+}
+
 void parse_open(Parser *p)
 {
     parse_expect(p, TOK_OPEN);
-    if (++p->braces > MAX_BRACES)
-        fail(p->diag, cursor_loc(p), "more than %d braces are open", MAX_BRACES);
+    brace_opened(p);
+}
+
+void block_open(Parser *p, const char *word)
+{
+    if (!parse_accept(p, TOK_OPEN))
+        parse_fail(p, "Missing { after '%s', %s found instead", word, token_description(p));
+    brace_opened(p);
 }
 
 void parse_close(Parser *p)
 {
     parse_expect(p, TOK_CLOSE);
+    p->braces--;
+}
+
+void block_close(Parser *p, const char *word)
+{
+    if (!parse_accept(p, TOK_CLOSE))
+        parse_fail(p, "No matching } in '%s', %s found instead", word, token_description(p));
     p->braces--;
 }
 
@@ -180,14 +205,14 @@ double parse_float(Parser *p)
 {
     Reader *r = plain_text(p);
     double v;
-    return r != NULL && lex_number_literal(&r->lexer, LEX_NOTHING, &v) ? v : expr_float(p);
+    return r != NULL && literal_number(&r->lexer, LITERAL_NOTHING, &v) ? v : expr_float(p);
 }
 
 double parse_next_float(Parser *p)
 {
     Reader *r = plain_text(p);
     double v;
-    if (r != NULL && lex_number_literal(&r->lexer, LEX_COMMA, &v))
+    if (r != NULL && literal_number(&r->lexer, LITERAL_COMMA, &v))
         return v;
     parse_comma(p);
     return expr_float(p);
@@ -240,7 +265,7 @@ Vec3 parse_vec3(Parser *p)
     Reader *r = cursor_top(p);
     double v[3];
     bool inside = p->have && p->token.kind == TOK_LESS;
-    if (r->is_file && (inside || !p->have) && lex_vector_literal(&r->lexer, inside ? LEX_INSIDE : LEX_NOTHING, v)) {
+    if (r->is_file && (inside || !p->have) && literal_vector(&r->lexer, inside ? LITERAL_INSIDE : LITERAL_NOTHING, v)) {
         p->have = false;
         return vec3(v[0], v[1], v[2]);
     }
@@ -252,7 +277,7 @@ Vec3 parse_next_vec3(Parser *p)
 {
     Reader *r = plain_text(p);
     double v[3];
-    if (r != NULL && lex_vector_literal(&r->lexer, LEX_COMMA, v))
+    if (r != NULL && literal_vector(&r->lexer, LITERAL_COMMA, v))
         return vec3(v[0], v[1], v[2]);
     parse_comma(p);
     return parse_vec3(p);

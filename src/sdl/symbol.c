@@ -7,23 +7,37 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "sdl/number.h"
 #include "sdl/parser.h"
 
-static uint32_t hash_of(const char *text, size_t n)
+/* The first 8 bytes, with zeros behind what is shorter. */
+static inline uint64_t head_of(const char *text, size_t n)
+{
+    uint64_t head = 0;
+    if (n >= 8) {
+        memcpy(&head, text, 8);
+    } else if (n >= 4) {                       /* two halves that overlap */
+        uint32_t first, last;
+        memcpy(&first, text, 4);
+        memcpy(&last, text + n - 4, 4);
+        head = first | (uint64_t)last << 8 * (n - 4);
+    } else {
+        for (size_t i = 0; i < n; i++)
+            head |= (uint64_t)(unsigned char)text[i] << 8 * i;
+    }
+    return head;
+}
+
+static inline uint32_t hash_of(uint64_t head, const char *text, size_t n)
 {
     uint64_t h = n;
-    while (n >= 8) {
-        uint64_t w;
-        memcpy(&w, text, 8);
-        h = (h ^ w) * 0x9e3779b97f4a7c15u;
+    for (; n > 8; n -= 8) {
+        h = (h ^ head) * 0x9e3779b97f4a7c15u;
         h ^= h >> 29;
         text += 8;
-        n -= 8;
+        head = head_of(text, n - 8);
     }
-    uint64_t w = 0;
-    memcpy(&w, text, n);
-    h = (h ^ w) * 0x9e3779b97f4a7c15u;
-    return (uint32_t)(h >> 32);
+    return (uint32_t)(((h ^ head) * 0x9e3779b97f4a7c15u) >> 32);
 }
 
 static void grow(Parser *p)
@@ -45,10 +59,10 @@ static void grow(Parser *p)
 
 Sym *symbol_intern(Parser *p, const char *text, size_t n)
 {
-    uint32_t hash = hash_of(text, n);
-    uint32_t at = hash & p->sym_mask;
+    uint64_t head = head_of(text, n);
+    uint32_t hash = hash_of(head, text, n), at = hash & p->sym_mask;
     for (Sym *s; (s = p->sym[at]); at = (at + 1) & p->sym_mask)
-        if (s->hash == hash && s->text.n == n && memcmp(s->text.data, text, n) == 0)
+        if (s->head == head && s->hash == hash && s->text.n == n && (n <= 8 || memcmp(s->text.data, text, n) == 0))
             return s;
     if ((p->n_syms + 1) * 2 > p->sym_mask + 1) {
         grow(p);
@@ -58,6 +72,7 @@ Sym *symbol_intern(Parser *p, const char *text, size_t n)
     }
     Sym *s = arena_new(p->arena, Sym);
     s->text = str_copy(p->arena, (Str){ text, (uint32_t)n });
+    s->head = head;
     s->hash = hash;
     p->sym[at] = s;
     p->n_syms++;

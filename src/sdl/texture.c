@@ -124,7 +124,7 @@ static const Pigment *literal(Parser *p, const Texture *top, int keyword)
     Colour c;
     if (l == NULL || keyword == KW_FINISH || keyword == KW_NORMAL)
         return NULL;
-    return lex_pigment_literal(l, keyword == KW_TEXTURE, &c) ? pigment_of_colour(p, c) : NULL;
+    return (keyword == KW_TEXTURE ? literal_texture_body(l, &c) : literal_pigment(l, &c)) ? pigment_of_colour(p, c) : NULL;
 }
 
 const Texture *texture_part(Parser *p, const Texture *top)
@@ -398,7 +398,7 @@ ListedTexture parse_listed_texture(Parser *p)
 {
     ListedTexture t = { .texture = parse_blocks(p)->default_texture };
     Lexer *l = lexer_for_literals(p, t.texture);
-    t.coloured = l != NULL && lex_texture_literal(l, &t.colour);
+    t.coloured = l != NULL && literal_texture(l, &t.colour);
     if (t.coloured)
         return t;
     t.texture = parse_take_block(p, BLOCK_TEXTURE);

@@ -11,6 +11,8 @@
 
 #include "sdl/run.h"
 
+#include "sdl/number.h"
+
 static uint64_t state_ = 88172645463325252u;
 
 static uint64_t random64(void)                 /* xorshift64 (Marsaglia 2003) */
@@ -22,13 +24,19 @@ static uint64_t random64(void)                 /* xorshift64 (Marsaglia 2003) */
 
 static void same_as_strtod(const char *text)
 {
-    const char *at = text;
-    double got = -1, want = strtod(text, NULL);
-    assert_true(number_scan(&at, text + strlen(text), &got));
-    assert_int_equal(at - text, strlen(text));
-    if (memcmp(&got, &want, sizeof got) != 0)
-        print_message("%s: %a, strtod says %a\n", text, got, want);
-    assert_memory_equal(&got, &want, sizeof got);
+    static char longer[6100];
+    size_t n = strlen(text);
+    double want = strtod(text, NULL);
+    for (int behind = 0; behind < 2; behind++) {           /* at the end of a file, and with more to come */
+        snprintf(longer, sizeof longer, "%s%s", text, behind ? ", 1, 2, 3, 4, 5, 6, 7" : "");
+        const char *at = longer;
+        double got = -1;
+        assert_true(number_scan(&at, longer + strlen(longer), &got));
+        assert_int_equal(at - longer, n);
+        if (memcmp(&got, &want, sizeof got) != 0)
+            print_message("%s: %a, strtod says %a\n", text, got, want);
+        assert_memory_equal(&got, &want, sizeof got);
+    }
 }
 
 static void any_double_survives_being_written(void **state)
@@ -151,7 +159,7 @@ static void vector_literals_are_taken_whole_or_not_at_all(void **state)
         double v[3];
         lex_start(&l, 0, str_of(rows[i].text));
         const char *before = l.at;
-        assert_int_equal(lex_vector_literal(&l, false, v), rows[i].taken);
+        assert_int_equal(literal_vector(&l, LITERAL_NOTHING, v), rows[i].taken);
         assert_true(rows[i].taken == (l.at != before));
     }
 }
