@@ -113,7 +113,7 @@ bool camera_bent_ray(const Camera *c, double u, double v, CameraRay *out)
     const CameraDef *def = c->def;
     switch (def->kind) {
     case CAMERA_ORTHOGRAPHIC:
-        out->o = camera_blend(def->location, 1, def->right, u, def->up, v);
+        out->o = camera_parallel_origin(c, u, v);
         out->d = def->direction;
         return true;
     case CAMERA_FISHEYE:

@@ -28,13 +28,24 @@ static inline Vec3 camera_blend(Vec3 a, double x, Vec3 b, double y, Vec3 c, doub
 /* For all kinds but perspective; u, v: from the middle of the picture, in its sizes, in out->work already. */
 bool camera_bent_ray(const Camera *c, double u, double v, CameraRay *out);
 
+static inline Vec2 camera_place(const Camera *c, double x, double y)
+{
+    return (Vec2){ (x + 0.5) / c->width - 0.5, 0.5 - (y + 0.5) / c->height };
+}
+
+/* Of an orthographic camera. */
+static inline Vec3 camera_parallel_origin(const Camera *c, double u, double v)
+{
+    return camera_blend(c->def->location, 1, c->def->right, u, c->def->up, v);
+}
+
 /* x, y: whole numbers are pixel centres. False: nothing is seen there. Not for mesh cameras. */
 static inline bool camera_ray(const Camera *c, double x, double y, CameraRay *out)
 {
     const CameraDef *def = c->def;
-    double u = (x + 0.5) / c->width - 0.5, v = 0.5 - (y + 0.5) / c->height;
     out->o = def->location;
-    out->work = (Vec2){ u, v };
+    out->work = camera_place(c, x, y);
+    double u = out->work.u, v = out->work.v;
     if (def->kind != CAMERA_PERSPECTIVE)
         return camera_bent_ray(c, u, v, out);
     out->d = camera_blend(def->direction, 1, def->right, u, def->up, v);

@@ -53,6 +53,7 @@ Sampling *sampling_new(Arena *arena, const World *w, const RenderOptions *option
     s->blur = blur_new(arena, &w->camera);
     s->moves = camera_moves(&w->camera);
     s->home = s->moves ? home_of(s) : NOWHERE;
+    s->parallel = w->camera.kind == CAMERA_ORTHOGRAPHIC && s->blur == NULL && w->camera.normal == NULL;
     s->across = normalized(cross(w->camera.up, w->camera.direction));
     s->down = normalized(cross(w->camera.direction, s->across));
     s->focus = w->camera.focal_distance / length(w->camera.direction);
@@ -80,18 +81,26 @@ bool sampler_took_chances(const Sampler *s)
     return tracer_took_chances(s->tracer);
 }
 
-/* A ray in scene space. */
-static Colour shoot(Sampler *s, const CameraRay *ray, double reach)
+/* A ray in scene space, d of unit length. */
+static inline Colour shoot_along(Sampler *s, Vec3 from, Vec3 d, double reach)
 {
     const Sampling *all = s->sampling;
+    Vec3 o = scaled(from, all->world->unit);
+    const Interiors *around = &s->at_home;
+    if (all->moves && !bounds_contain(all->home, o)) {
+        tracer_interiors(s->tracer, o, &s->elsewhere);
+        around = &s->elsewhere;
+    }
+    return tracer_camera_ray(s->tracer, o, d, reach, around);
+}
+
+static Colour shoot(Sampler *s, const CameraRay *ray, double reach)
+{
     Vec3 d = normalized(ray->d);
-    if (all->camera.def->normal != NULL)
-        d = normalized(normal_perturb(all->camera.def->normal, vec3(ray->work.u, ray->work.v, 0), d, NULL));
-    Vec3 o = scaled(ray->o, all->world->unit);
-    if (!all->moves || bounds_contain(all->home, o))
-        return tracer_camera_ray(s->tracer, o, d, reach, &s->at_home);
-    tracer_interiors(s->tracer, o, &s->elsewhere);
-    return tracer_camera_ray(s->tracer, o, d, reach, &s->elsewhere);
+    const Normal *normal = s->sampling->camera.def->normal;
+    if (normal != NULL)
+        d = normalized(normal_perturb(normal, vec3(ray->work.u, ray->work.v, 0), d, NULL));
+    return shoot_along(s, ray->o, d, reach);
 }
 
 /* ---- focal blur ---- */
@@ -183,10 +192,15 @@ static Colour through_mesh(Sampler *s, double x, double y)
 
 Colour sampler_colour(Sampler *s, double x, double y)
 {
+    const Camera *camera = &s->sampling->camera;
+    if (s->sampling->parallel) {
+        Vec2 at = camera_place(camera, x, y);
+        return shoot_along(s, camera_parallel_origin(camera, at.u, at.v), camera->direction, INFINITY);
+    }
     if (s->sampling->mesh != NULL)
         return through_mesh(s, x, y);
     if (s->sampling->blur != NULL)
         return blurred(s, x, y);
     CameraRay ray;
-    return camera_ray(&s->sampling->camera, x, y, &ray) ? shoot(s, &ray, INFINITY) : NOTHING;
+    return camera_ray(camera, x, y, &ray) ? shoot(s, &ray, INFINITY) : NOTHING;
 }

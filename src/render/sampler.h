@@ -22,6 +22,7 @@ typedef struct Sampling {
     double focus;                              /* distance of what is sharp, in lengths of the camera's direction */
     Bounds home;                               /* rays from here start in the same bodies; empty: nothing is known */
     bool moves;                                /* rays may start elsewhere */
+    bool parallel;                             /* rays all lead along the camera's direction, one for each sample */
 } Sampling;
 
 typedef struct Sampler {
