@@ -1,23 +1,30 @@
 /* bvh_kernel.c - walking the tree, eight boxes at a time; built once per instruction set (base/cpu.h).
  *
- * The box test never misses: the near side is computed with the origin rounded along the ray and the inverse direction shrunk
- * by more than the rounding of all operations, the far side the other way round. A near side behind the origin may come out
- * too far forward, but not beyond 0, where every walk begins at the earliest. A side for which NaN comes out (the ray is in
- * its plane, or starts beyond all floats) is ignored by f8_max and f8_min. */
+ * The box test never misses. Each side is met by a line that starts a little further out, so that the sign of a distance is
+ * right whatever was rounded; distances are then right to a few digits less than floats have, and the far end is stretched by
+ * that. A near side behind the origin may come out too far forward, but not beyond 0, where every walk begins at the earliest.
+ * A side for which NaN comes out (the ray starts beyond all floats) is ignored by f8_max and f8_min. */
 #include "accel/bvh.h"
+
+#include <stddef.h>
 
 #include "base/simd.h"
 
 /* The three axes of a ray at once; the fourth number is nothing. */
+typedef double Axes64 __attribute__((vector_size(32), aligned(8), may_alias));
 typedef float Axes __attribute__((vector_size(16)));
 typedef int32_t AxisBits __attribute__((vector_size(16)));
 
 typedef struct BoxRay {
-    float o_near[4], o_far[4], inv_near[4], inv_far[4];    /* of the inverse the negative: a side is taken from o */
-    uint32_t near[4], far[4];                  /* the sides it enters and leaves by: where in BvhNode.side */
+    float above[4], below[4];                  /* the origin, as the low and the high sides see it */
+    float inverse[4];                          /* of the direction, the negative: a side is taken from the origin */
+    float start;
 } BoxRay;
 
 static const double SHRINK = 1 - 0x1p-22, STRETCH = 1 + 0x1p-22;
+
+/* A distance is rounded four times, and so is the one it is compared with. */
+static const float DISTANCE_STRETCH = 1 + 0x1p-20f;
 
 /* Not above x, within two roundings of it: float_below without branches. Never +INFINITY, which would hide what lies there. */
 static inline float under(double x)
@@ -31,9 +38,10 @@ static inline float over(double x)
     return -under(-x);
 }
 
-static inline Axes axes_of(Vec3 v)
+/* Three numbers of a ray, and the one that follows them. */
+static inline Axes axes_at(const Ray *ray, size_t offset)
 {
-    return (Axes){ (float)v.x, (float)v.y, (float)v.z, 1 };
+    return __builtin_convertvector(*(const Axes64 *)(const void *)((const char *)ray + offset), Axes);
 }
 
 static inline Axes axes_abs(Axes a)
@@ -41,52 +49,38 @@ static inline Axes axes_abs(Axes a)
     return (Axes)((AxisBits)a & 0x7fffffff);
 }
 
-static inline Axes axes_choose(AxisBits which, Axes a, Axes b)
-{
-    return (Axes)((which & (AxisBits)a) | (~which & (AxisBits)b));
-}
-
-/* Five roundings lie between d and a distance, the margins are of eight. Floats near the least normal one have fewer digits:
- * small is kept below the inverse of that by what is added, large is infinite there by an overflow. */
+/* A direction of 0 gives infinite distances, and NaN for a side exactly the margin away: a box that is not met. */
 static inline void box_ray(BoxRay *r, const Ray *ray)
 {
-    Axes o = axes_of(ray->o), d = axes_of(ray->d), loose = axes_abs(o) * 0x1p-22f + 0x1p-149f, size = axes_abs(d);
-    Axes small = (1 - 0x1p-21f) / (size + 0x1p-126f), large = (4 + 0x1p-19f) / size * 0.25f;
-    Axes below = o - loose, above = o + loose;
-    AxisBits back = (AxisBits)d >> 31, turned = ~(AxisBits)d & (int32_t)0x80000000;
-    AxisBits side = { 0, BVH_WIDTH, 2 * BVH_WIDTH, 0 }, other = back & 3 * BVH_WIDTH;
-    Axes o_near = axes_choose(back, below, above), o_far = axes_choose(back, above, below);
-    Axes inv_near = (Axes)((AxisBits)small | turned), inv_far = (Axes)((AxisBits)large | turned);
-    AxisBits near = side + other, far = side + 3 * BVH_WIDTH - other;
-    memcpy(r->o_near, &o_near, sizeof o_near);
-    memcpy(r->o_far, &o_far, sizeof o_far);
-    memcpy(r->inv_near, &inv_near, sizeof inv_near);
-    memcpy(r->inv_far, &inv_far, sizeof inv_far);
-    memcpy(r->near, &near, sizeof near);
-    memcpy(r->far, &far, sizeof far);
+    Axes o = axes_at(ray, offsetof(Ray, o)), d = axes_at(ray, offsetof(Ray, d));
+    Axes part = o - o * (1 - 0x1p-21f);        /* NaN of an infinite one */
+    Axes loose = axes_abs(part), above = o + loose, below = o - loose, inverse = -1 / d;
+    memcpy(r->above, &above, sizeof above);
+    memcpy(r->below, &below, sizeof below);
+    memcpy(r->inverse, &inverse, sizeof inverse);
+    r->start = (float)ray->t_min;
 }
 
-/* The children whose boxes the ray may meet in [t_min, t_max], and where it enters them. Not inlined: the compiler would keep
- * the ray in registers, and save and restore them all around every item. */
-static __attribute__((noinline)) uint32_t meet(const BvhNode *node, const BoxRay *r, float t_min, float t_max, float near_out[BVH_WIDTH])
+/* The children whose boxes the ray may meet between its start and the limit, and where it enters them. */
+static inline uint32_t meet(const BvhNode *node, const BoxRay *r, float limit, float near_out[BVH_WIDTH])
 {
-    const float *side = node->side[0];
-    f8 near = f8_set(t_min), far = f8_set(t_max);
+    f8 near = f8_set(r->start), far = f8_set(limit);
     for (int axis = 0; axis < 3; axis++) {
-        f8 enter = f8_sub(f8_set(r->o_near[axis]), f8_load(side + r->near[axis]));
-        f8 leave = f8_sub(f8_set(r->o_far[axis]), f8_load(side + r->far[axis]));
-        near = f8_max(f8_mul(enter, f8_set(r->inv_near[axis])), near);
-        far = f8_min(f8_mul(leave, f8_set(r->inv_far[axis])), far);
+        f8 inverse = f8_set(r->inverse[axis]);
+        f8 low = f8_mul(f8_sub(f8_set(r->above[axis]), f8_load(node->side[axis])), inverse);
+        f8 high = f8_mul(f8_sub(f8_set(r->below[axis]), f8_load(node->side[axis + 3])), inverse);
+        near = f8_max(f8_min(low, high), near);
+        far = f8_min(f8_max(low, high), far);
     }
     f8_store(near_out, near);
-    return f8_le(near, far) & node->used;
+    return f8_le(near, f8_mul(far, f8_set(DISTANCE_STRETCH))) & node->used;
 }
 
-/* A child and where it is entered, in one number that grows with the distance: the bits of a float, then the child. (Below 0
- * the order is another; all a ray begins with is a little below.) */
-static inline int64_t visit_of(const BvhNode *node, uint32_t i, const float near[BVH_WIDTH])
+/* A child and where it is entered, in one number that grows with the distance: the bits of a float, then the child. */
+static inline int64_t visit_of(const BvhNode *node, uint32_t mask, const float near[BVH_WIDTH])
 {
-    return (int64_t)((uint64_t)float_bits(near[i]) << 32 | node->child[i]);
+    size_t first = (size_t)__builtin_ctz(mask);
+    return (int64_t)((uint64_t)float_bits(near[first]) << 32 | node->child[first]);
 }
 
 static inline float visit_near(int64_t visit)
@@ -94,53 +88,50 @@ static inline float visit_near(int64_t visit)
     return float_of_bits((uint32_t)((uint64_t)visit >> 32));
 }
 
-/* Puts the children on the stack, the nearest on top. */
-static inline uint32_t push(int64_t *stack, uint32_t n, const BvhNode *node, uint32_t mask, const float near[BVH_WIDTH])
+/* Puts the children on the stack, the nearer on top of the farther, but for the nearest, which is to be visited now. */
+static inline int64_t open_node(const BvhNode *node, uint32_t mask, const float near[BVH_WIDTH], int64_t **top)
 {
-    uint32_t first = n;
-    for (; mask != 0; mask &= mask - 1) {
-        int64_t visit = visit_of(node, (uint32_t)__builtin_ctz(mask), near);
-        uint32_t at = n++;
-        for (; at > first && stack[at - 1] < visit; at--)
-            stack[at] = stack[at - 1];
-        stack[at] = visit;
+    int64_t nearest = visit_of(node, mask, near), *first = *top;
+    while ((mask &= mask - 1) != 0) {
+        int64_t visit = visit_of(node, mask, near), other = visit < nearest ? nearest : visit, *at = (*top)++;
+        nearest = visit < nearest ? visit : nearest;
+        for (; at > first && at[-1] < other; at--)
+            *at = at[-1];
+        *at = other;
     }
-    return n;
+    return nearest;
 }
 
 bool ISA_NAME(bvh_walk)(const Bvh *b, const Ray *ray, double *t_max, AccelVisit *visit, void *user)
 {
-    int64_t stack[BVH_STACK];
-    float near[BVH_WIDTH];
+    int64_t stack[BVH_STACK], *top = stack;
+    float near[BVH_WIDTH], limit = (float)*t_max;
     BoxRay r;
     box_ray(&r, ray);
-    double best = *t_max;
-    float t_min = under(ray->t_min), limit = over(best);
-    uint32_t n = 0, child = bvh_child(0, 0);
+    uint32_t child = bvh_child(0, 0);
     for (;;) {
         uint32_t at = bvh_at(child), count = bvh_count(child);
         if (count == 0) {
             const BvhNode *node = &b->node[at];
-            uint32_t mask = meet(node, &r, t_min, limit, near);
-            if (mask != 0 && (mask & (mask - 1)) == 0) {   /* one child, as most often: go on with it */
-                child = node->child[__builtin_ctz(mask)];
+            uint32_t mask = meet(node, &r, limit, near);
+            if (mask != 0) {
+                child = (uint32_t)open_node(node, mask, near, &top);
                 continue;
             }
-            n = push(stack, n, node, mask, near);
         } else {
-            for (uint32_t i = 0; i < count; i++)
-                if (visit(user, b->item[at + i], t_max))
+            const uint32_t *item = b->item + at, *end = item + count;
+            do {
+                if (visit(user, *item, t_max))
                     return true;
-            if (*t_max < best) {
-                best = *t_max;
-                limit = over(best);
-            }
+            } while (++item < end);
+            limit = (float)*t_max;
+            __asm__ volatile("" : "+m"(r));    /* to be read again: registers would be saved and restored around every item */
         }
         do {
-            if (n == 0)
+            if (top == stack)
                 return false;
-            child = (uint32_t)stack[--n];
-        } while (visit_near(stack[n]) > limit);
+            child = (uint32_t)*--top;
+        } while (visit_near(*top) > limit * DISTANCE_STRETCH);
     }
 }
 
