@@ -132,7 +132,7 @@ static bool ray_meets_bounds(const World *w, const CsgNode *node, const Ray *ray
 }
 
 /* Does the ray meet all bounds above the prim? Asked once, before its roots are sought. */
-static bool bounds_let_through(const Search *search, uint32_t csg)
+static __attribute__((noinline)) bool bounds_let_through(const Search *search, uint32_t csg)
 {
     const World *w = search->world;
     for (uint32_t c = csg; c != search->above; c = w->csg[c].parent)
@@ -172,32 +172,48 @@ static bool wins_tie(uint32_t prim, uint32_t part, const Hit *b)
     return prim != b->prim ? prim < b->prim : part < b->part;
 }
 
+static void hit_visit(Search *search)
+{
+    if (search->visit(search->user, search->hit)) {
+        search->stop = true;
+        search->sink.limit = -INFINITY;
+    }
+}
+
+static inline void hit_keep(Search *search, double t, uint32_t part, double u, double v)
+{
+    *search->hit = (Hit){ .t = t, .u = u, .v = v, .prim = search->prim, .part = part };
+    if (search->visit == NULL) {
+        search->found = true;
+        search->sink.limit = t;
+    } else
+        hit_visit(search);
+}
+
+static __attribute__((noinline)) void hit_climb(Search *search, double t, uint32_t part, double u, double v)
+{
+    if (csg_keeps(search, t))
+        hit_keep(search, t, part, u, v);
+}
+
 /* t <= sink->limit, which is that of the nearest hit found. */
 void hit_offer(HitSink *sink, double t, uint32_t part, double u, double v)
 {
     Search *search = (Search *)sink;
     if (search->found && t == sink->limit && !wins_tie(search->prim, part, search->hit))
         return;
-    if (search->csg != search->above && !csg_keeps(search, t))
-        return;
-    *search->hit = (Hit){ .t = t, .u = u, .v = v, .prim = search->prim, .part = part };
-    if (search->visit == NULL) {
-        search->found = true;
-        sink->limit = t;
-    } else if (search->visit(search->user, search->hit)) {
-        search->stop = true;
-        sink->limit = -INFINITY;
-    }
+    if (search->csg == search->above)
+        hit_keep(search, t, part, u, v);
+    else
+        hit_climb(search, t, part, u, v);
 }
 
 /* ---- rays ---- */
 
 /* The ray in a prim's space. Most prims have no place of their own, and neighbours may share one. */
-static inline const Ray *local_ray(Search *search, const Affine *place)
+static __attribute__((noinline)) const Ray *ray_within(Search *search, const Affine *place)
 {
     const Ray *ray = search->ray;
-    if (place->identity)
-        return ray;
     if (search->place != place) {
         search->place = place;
         search->local = (Ray){ affine_apply(place->inv, ray->o), affine_apply_linear(place->inv, ray->d), ray->t_min, ray->t_max };
@@ -208,11 +224,11 @@ static inline const Ray *local_ray(Search *search, const Affine *place)
 static inline void prim_test(Search *search, uint32_t index)
 {
     const Prim *prim = &search->world->prim[index];
-    if ((prim->flags & search->skip) || ((prim->flags & PRIM_BOUNDED) && !bounds_let_through(search, prim->csg)))
+    if ((prim->flags & (search->skip | PRIM_BOUNDED)) && ((prim->flags & search->skip) || !bounds_let_through(search, prim->csg)))
         return;
     search->prim = index;
     search->csg = prim->csg;
-    prim->ops->hits(prim->data, local_ray(search, prim->place), &search->sink);
+    prim->ops->hits(prim->data, prim->place->identity ? search->ray : ray_within(search, prim->place), &search->sink);
 }
 
 static bool test_item(void *user, uint32_t i, double *t_max)
@@ -223,44 +239,6 @@ static bool test_item(void *user, uint32_t i, double *t_max)
     return search->stop;
 }
 
-/* ---- few prims ---- */
-
-/* Up to so many prims are tried box by box: setting out on a walk through the tree costs as much. */
-enum { FEW = 6 };
-
-/* Beyond the rounding of the three operations that make a distance. */
-static const double LOOSE = 1 + 0x1p-50;
-
-static void clip_slab(double o, double inverse, double lo, double hi, double *near, double *far)
-{
-    double a = (lo - o) * inverse, b = (hi - o) * inverse;
-    double enter = inverse > 0 ? a : b, leave = inverse > 0 ? b : a;
-    *near = enter > *near ? enter : *near;     /* NaN, of a ray in the plane of a side, does not count */
-    *far = leave < *far ? leave : *far;
-}
-
-/* May the ray meet the box in its range? */
-static bool box_ahead(const Search *search, Vec3 inverse, const Bounds *box)
-{
-    const Ray *ray = search->ray;
-    double near = search->sink.t_min, far = search->sink.limit;
-    clip_slab(ray->o.x, inverse.x, box->lo.x, box->hi.x, &near, &far);
-    clip_slab(ray->o.y, inverse.y, box->lo.y, box->hi.y, &near, &far);
-    clip_slab(ray->o.z, inverse.z, box->lo.z, box->hi.z, &near, &far);
-    return near <= far * LOOSE;
-}
-
-static void few_prims(Search *search)
-{
-    const World *w = search->world;
-    Vec3 d = search->ray->d, inverse = vec3(1 / d.x, 1 / d.y, 1 / d.z);
-    for (uint32_t i = 0; i < w->n_accel_prims && !search->stop; i++) {
-        uint32_t prim = w->accel_prim[i];
-        if (box_ahead(search, inverse, &w->box[prim]))
-            prim_test(search, prim);
-    }
-}
-
 static void all_prims(Search *search)
 {
     const World *w = search->world;
@@ -268,10 +246,7 @@ static void all_prims(Search *search)
         prim_test(search, w->unbounded[i]);
     if (search->stop || w->n_accel_prims == 0)
         return;
-    if (w->n_accel_prims <= FEW)
-        few_prims(search);
-    else
-        w->accel_ops->walk(w->accel, search->ray, &search->sink.limit, test_item, search);
+    w->accel_ops->walk(w->accel, search->ray, &search->sink.limit, test_item, search);
 }
 
 static inline void search_start(Search *search, const World *w, const Ray *ray, uint32_t skip, Hit *hit)
