@@ -110,7 +110,8 @@ static inline bool spots_set(Spot *spot, Vec3 p, double first, double step, int 
 
 /* ---- sums over the corners ---- */
 
-/* Does `each` with the corner's numbers in R (`table`) and w (1/2, dx, dy, dz) (`factors`). */
+/* Does `each` with the corner's numbers in R (`table`) and w (1/2, dx, dy, dz) (`factors`). Points with a whole z, most often 0 as
+ * in the images that functions make, have no part in the upper layer: its weights are 0. */
 #define FOR_CORNERS(spot, each)                                                                                        \
     const uint16_t *h = noise_tables.hash;                                                                             \
     const uint8_t *last = noise_tables.corner;                                                                         \
@@ -121,10 +122,12 @@ static inline bool spots_set(Spot *spot, Vec3 p, double first, double step, int 
     CORNER(spot, h10 ^ iz, 1, 0, 0, each)                                                                              \
     CORNER(spot, h01 ^ iz, 0, 1, 0, each)                                                                              \
     CORNER(spot, h11 ^ iz, 1, 1, 0, each)                                                                              \
-    CORNER(spot, h00 ^ (iz + 1), 0, 0, 1, each)                                                                        \
-    CORNER(spot, h10 ^ (iz + 1), 1, 0, 1, each)                                                                        \
-    CORNER(spot, h01 ^ (iz + 1), 0, 1, 1, each)                                                                        \
-    CORNER(spot, h11 ^ (iz + 1), 1, 1, 1, each)
+    if ((spot)->low[3] != 0) {                                                                                         \
+        CORNER(spot, h00 ^ (iz + 1), 0, 0, 1, each)                                                                    \
+        CORNER(spot, h10 ^ (iz + 1), 1, 0, 1, each)                                                                    \
+        CORNER(spot, h01 ^ (iz + 1), 0, 1, 1, each)                                                                    \
+        CORNER(spot, h11 ^ (iz + 1), 1, 1, 1, each)                                                                    \
+    }
 
 #define CORNER(spot, hash, x, y, z, each)                                                                              \
     {                                                                                                                  \
