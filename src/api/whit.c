@@ -120,10 +120,23 @@ static Colour host_pigment(void *user, const Pigment *pigment, Vec3 p)
     return pigment_colour(pigment, p, NULL, NULL);
 }
 
+static void host_pigments(void *user, const Pigment *pigment, Vec3 *p, Colour *out, int n)
+{
+    (void)user;
+    pigment_colours(pigment, p, out, n);
+}
+
 static double host_pattern(void *user, const Pattern *pattern, Vec3 p)
 {
     (void)user;
     return pattern_value(pattern, pattern_point(pattern, p), NULL);
+}
+
+static void host_patterns(void *user, const Pattern *pattern, Vec3 *p, double *out, int n)
+{
+    (void)user;
+    pattern_points(pattern, p, n);
+    pattern_values(pattern, p, out, n);
 }
 
 static const Str *strings(Arena *a, const char *const *list, size_t n)
@@ -185,7 +198,8 @@ static void read_scene(Whit *w, void *with)
 {
     const Reading *r = with;
     SdlHost host = { .registry = &registry, .user = w->query, .trace = query_trace, .inside = query_inside,
-                     .extent = query_extent, .world = query_world, .pigment = host_pigment, .pattern = host_pattern };
+                     .extent = query_extent, .world = query_world, .pigment = host_pigment, .pigments = host_pigments,
+                     .pattern = host_pattern, .patterns = host_patterns };
     SdlOptions options = sdl_options(w, r->path);
     sdl_parse(&w->arena, w->diag, &host, &options, r->path, r->text, &w->scene);
     tell_unmodelled(w);

@@ -1,5 +1,6 @@
 /* eval.c - calls functions: picks the kernel of this machine and the width for the number of points. */
 #include <math.h>
+#include <string.h>
 
 #include "func/code.h"
 #include "math/elementary.h"
@@ -55,6 +56,28 @@ static double host_scalar(const FuncHost *host, const double *arguments)
     return out[0];
 }
 
+static void host_eval(const FuncHost *host, const double *const *arguments, double (*out)[5], uint32_t n)
+{
+    const double *row[FUNC_MAX_PARAMETERS];
+    double one[FUNC_MAX_PARAMETERS];
+    for (uint32_t at = 0; host->calls != NULL && at < n; at += FUNC_MANY) {
+        for (int k = 0; k < host->parameters; k++)
+            row[k] = arguments[k] + at;
+        host->calls(host->data, row, out + at, (int)(n - at < FUNC_MANY ? n - at : FUNC_MANY));
+    }
+    for (uint32_t i = 0; host->calls == NULL && i < n; i++) {
+        for (int k = 0; k < host->parameters; k++)
+            one[k] = arguments[k][i];
+        memset(out[i], 0, sizeof out[i]);
+        host->call(host->data, one, out[i]);
+    }
+}
+
+void func_eval_vector(const Function *f, const double *const *arguments, double (*out)[5], uint32_t n)
+{
+    host_eval(f->host, arguments, out, n);
+}
+
 double func_call(const Function *f, const double *arguments)
 {
     return f->host != NULL ? host_scalar(f->host, arguments) : kernel->one(f, arguments);
@@ -78,13 +101,16 @@ void func_eval(const Function *f, const double *const *arguments, double *out, u
         const double *row[FUNC_MAX_PARAMETERS];
         for (int k = 0; k < f->parameters; k++)
             row[k] = arguments[k] + at;
-        if (f->host != NULL || here == 1) {
-            for (uint32_t l = 0; l < here; l++) {
-                double one[FUNC_MAX_PARAMETERS];
-                for (int k = 0; k < f->parameters; k++)
-                    one[k] = row[k][l];
-                out[at + l] = func_call(f, one);
-            }
+        if (f->host != NULL) {
+            double v[FUNC_MANY][5];
+            host_eval(f->host, row, v, here);
+            for (uint32_t l = 0; l < here; l++)
+                out[at + l] = v[l][0];
+        } else if (here == 1) {
+            double one[FUNC_MAX_PARAMETERS];
+            for (int k = 0; k < f->parameters; k++)
+                one[k] = *row[k];
+            out[at] = func_call(f, one);
         } else if (here <= 4) {
             kernel->few(f, row, out + at, (int)here);
         } else if (here <= 8) {

@@ -99,14 +99,24 @@ INLINE void run_call(const Instr *i, const uint16_t *argument, double *r, const 
         memcpy(d, value, (size_t)n * sizeof *d);
         return;
     }
+    const FuncHost *host = i->op == FUNC_HOST ? i->callee : NULL;
+    if (width > 1 && host != NULL && host->calls != NULL) {
+        const double *row[CODE_MAX_ARGUMENTS];
+        double value[width][5];
+        for (int k = 0; k < i->n; k++)
+            row[k] = r + argument[i->a + k] * width;
+        host->calls(host->data, row, value, n);
+        for (int l = 0; l < n; l++)
+            d[l] = code_part(value[l], i->c);
+        return;
+    }
     for (int l = 0; l < n; l++) {
         double v[CODE_MAX_ARGUMENTS], out[5] = { 0 };
         for (int k = 0; k < i->n; k++)
             v[k] = r[argument[i->a + k] * width + l];
-        if (i->op == FUNC_NATIVE) {
+        if (host == NULL) {
             d[l] = (*(FuncNative *const *)i->callee)(v);
         } else {
-            const FuncHost *host = i->callee;
             host->call(host->data, v, out);
             d[l] = code_part(out, i->c);
         }

@@ -13,7 +13,7 @@
 #include "math/colour.h"
 #include "math/vec.h"
 
-enum { FUNC_MAX_PARAMETERS = 56 };
+enum { FUNC_MAX_PARAMETERS = 56, FUNC_MANY = 32 };
 
 typedef struct Function Function;
 
@@ -24,6 +24,7 @@ double func_call(const Function *f, const double *arguments);          /* one po
 void func_eval(const Function *f, const double *const *arguments, double *out, uint32_t n);
 /* Pigment and spline functions have vector or colour values: fills 5 numbers, returns false for scalar functions. */
 bool func_call_vector(const Function *f, const double *arguments, double out[5]);
+void func_eval_vector(const Function *f, const double *const *arguments, double (*out)[5], uint32_t n);        /* not of scalar ones */
 
 /* Arithmetic and the like only, so that many lanes cost little more than one. */
 bool func_is_cheap(const Function *f);
@@ -34,9 +35,11 @@ enum { FUNC_PIECES = 8 };
 typedef struct FuncPieces { double first[FUNC_PIECES], second[FUNC_PIECES]; } FuncPieces;
 void func_pieces(const Function *f, const double *start, const double *speed, const double at[FUNC_PIECES + 1], FuncPieces *out);
 
-/* Something a function asks of another room. `call` must work from any thread; it fills `terms` numbers. */
+/* Something a function asks of another room. `call` must work from any thread; it fills `terms` numbers. `calls`, which may be
+ * NULL, does the same for n <= FUNC_MANY points and fills all five of each. */
 typedef struct FuncHost {
     void (*call)(const void *data, const double *arguments, double *out);
+    void (*calls)(const void *data, const double *const *arguments, double (*out)[5], int n);
     const void *data;
     int parameters, terms;
 } FuncHost;

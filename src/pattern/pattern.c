@@ -4,10 +4,19 @@
 #include "math/noise.h"
 #include "pattern/wave.h"
 
+static bool has_own_turbulence(const Pattern *pattern)
+{
+    return pattern->ops != NULL && (pattern->ops->flags & PATTERN_OWN_TURBULENCE);
+}
+
 Vec3 pattern_point(const Pattern *pattern, Vec3 p)
 {
-    bool own = pattern->ops != NULL && (pattern->ops->flags & PATTERN_OWN_TURBULENCE);
-    return own ? chain_apply_warps(&pattern->chain, p) : chain_apply(&pattern->chain, p);
+    return has_own_turbulence(pattern) ? chain_apply_warps(&pattern->chain, p) : chain_apply(&pattern->chain, p);
+}
+
+void pattern_points(const Pattern *pattern, Vec3 *p, int n)
+{
+    chain_apply_many(&pattern->chain, p, n, !has_own_turbulence(pattern));
 }
 
 static double wave_value(const Pattern *pattern, double v)
@@ -23,10 +32,8 @@ static double wave_value(const Pattern *pattern, double v)
     return v;
 }
 
-double pattern_value(const Pattern *pattern, Vec3 at, const TextureContext *context)
+static inline double finished(const Pattern *pattern, double v)
 {
-    PatternPoint point = { .p = at, .pattern = pattern, .context = context };
-    double v = pattern->ops->value(pattern->params, &point);
     double frequency = (double)pattern->frequency;
     /* POV: the modulus is 1.00001, so each turn loses a little and ramps drift far from the origin. */
     if (frequency != 0) {
@@ -37,6 +44,27 @@ double pattern_value(const Pattern *pattern, Vec3 at, const TextureContext *cont
     if (v < 0)
         v -= floor(v);
     return wave_value(pattern, v);
+}
+
+double pattern_value(const Pattern *pattern, Vec3 at, const TextureContext *context)
+{
+    PatternPoint point = { .p = at, .pattern = pattern, .context = context };
+    return finished(pattern, pattern->ops->value(pattern->params, &point));
+}
+
+void pattern_values(const Pattern *pattern, const Vec3 *at, double *out, int n)
+{
+    if (pattern->ops->values != NULL && n > 1) {
+        pattern->ops->values(pattern->params, pattern, at, out, n);
+    } else {
+        PatternPoint point = { .pattern = pattern };
+        for (int i = 0; i < n; i++) {
+            point.p = at[i];
+            out[i] = pattern->ops->value(pattern->params, &point);
+        }
+    }
+    for (int i = 0; i < n; i++)
+        out[i] = finished(pattern, out[i]);
 }
 
 double pattern_turbulence(const Turbulence *t, int noise_generator, Vec3 p)

@@ -181,3 +181,19 @@ Vec3 chain_apply(const WarpChain *chain, Vec3 p)
     p = through_warps(chain, p);
     return within_limits(chain->has_turbulence ? turbulent(&chain->turbulence, p) : p);
 }
+
+/* Warp by warp: what each one needs is loaded once for all points. */
+void chain_apply_many(const WarpChain *chain, Vec3 *p, int n, bool turbulence)
+{
+    for (uint32_t k = 0; k < chain->n; k++) {
+        const Warp *w = &chain->warp[k];
+        if (w->kind == WARP_TRANSFORM && !w->transform.identity)
+            for (int i = 0; i < n; i++)
+                p[i] = affine_apply(w->transform.inv, p[i]);
+        else
+            for (int i = 0; i < n; i++)
+                p[i] = warped(w, p[i]);
+    }
+    for (int i = 0; i < n; i++)
+        p[i] = within_limits(turbulence && chain->has_turbulence ? turbulent(&chain->turbulence, p[i]) : p[i]);
+}

@@ -66,6 +66,8 @@ typedef struct PatternPoint {
     const struct TextureContext *context;      /* pattern/context.h: ray, normals for slope and aoi; NULL without a hit */
 } PatternPoint;
 
+enum { PATTERN_MANY = 32 };
+
 enum {
     PATTERN_LIST = 1,                          /* takes a list of items (checker, brick...): n_items of them */
     PATTERN_NO_WAVE = 2,                       /* value is a whole number or an index: wave, frequency, phase do not apply */
@@ -85,6 +87,8 @@ struct PatternOps {
     void (*parse)(Parser *p, void *params);    /* after the keyword: `gradient V`, `spiral1 n`; may be NULL */
     bool (*item)(Parser *p, void *params);     /* optional: later items of the block, as for shapes (`metric`, `mortar`) */
     double (*value)(const void *params, const PatternPoint *at);       /* before frequency, phase and wave */
+    /* Optional: the same for n <= PATTERN_MANY points without a context. */
+    void (*values)(const void *params, const Pattern *pattern, const Vec3 *p, double *out, int n);
     Vec3 (*bump)(const void *params, const PatternPoint *at, Vec3 normal, double amount);      /* OWN_NORMAL */
 };
 

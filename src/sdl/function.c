@@ -347,6 +347,26 @@ static void ask_pattern(const void *data, const double *a, double *out)
     out[0] = ask->host->pattern(ask->host->user, ask->pattern, vec3(a[0], a[1], a[2]));
 }
 
+_Static_assert((int)FUNC_MANY <= (int)PATTERN_MANY, "patterns take as many points as functions ask for");
+
+static void points_of(const double *const *a, Vec3 *p, int n)
+{
+    for (int i = 0; i < n; i++)
+        p[i] = vec3(a[0][i], a[1][i], a[2][i]);
+}
+
+static void ask_patterns(const void *data, const double *const *a, double (*out)[5], int n)
+{
+    const Ask *ask = data;
+    Vec3 p[FUNC_MANY];
+    double v[FUNC_MANY];
+    points_of(a, p, n);
+    ask->host->patterns(ask->host->user, ask->pattern, p, v, n);
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < 5; k++)
+            out[i][k] = k == 0 ? v[i] : 0;
+}
+
 static void ask_pigment(const void *data, const double *a, double *out)
 {
     const Ask *ask = data;
@@ -356,6 +376,22 @@ static void ask_pigment(const void *data, const double *a, double *out)
     out[2] = (double)c.b;
     out[3] = (double)c.f;
     out[4] = (double)c.t;
+}
+
+static void ask_pigments(const void *data, const double *const *a, double (*out)[5], int n)
+{
+    const Ask *ask = data;
+    Vec3 p[FUNC_MANY];
+    Colour c[FUNC_MANY];
+    points_of(a, p, n);
+    ask->host->pigments(ask->host->user, ask->pigment, p, c, n);
+    for (int i = 0; i < n; i++) {
+        out[i][0] = (double)c[i].r;
+        out[i][1] = (double)c[i].g;
+        out[i][2] = (double)c[i].b;
+        out[i][3] = (double)c[i].f;
+        out[i][4] = (double)c[i].t;
+    }
 }
 
 static void ask_transform(const void *data, const double *a, double *out)
@@ -434,9 +470,11 @@ static const Function *special(Parser *p)
     FuncHost host = { .data = ask, .parameters = 3, .terms = 1 };
     if (kind == KW_PATTERN) {
         host.call = ask_pattern;
+        host.calls = ask_patterns;
         ask->pattern = pattern_block(p);
     } else if (kind == KW_PIGMENT) {
         host.call = ask_pigment;
+        host.calls = ask_pigments;
         host.terms = 5;
         ask->pigment = parse_pigment(p);
         function_holds(p, ask->pigment->pattern);

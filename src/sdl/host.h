@@ -12,10 +12,12 @@ typedef struct SdlHost {
     bool (*inside)(void *user, const Object *o, Vec3 p);
     Bounds (*extent)(void *user, const Object *o);
     Colour (*pigment)(void *user, const Pigment *pigment, Vec3 p);
+    void (*pigments)(void *user, const Pigment *pigment, Vec3 *p, Colour *out, int n);     /* of n <= PATTERN_MANY points; uses up p */
     /* The object as an item of a World of its own, for patterns that ask "inside?" of it later, from any thread: it must live
      * as long as the scene is rendered. NULL: it contains nothing. */
     const struct World *(*world)(void *user, const Object *o, uint32_t *item);
     double (*pattern)(void *user, const Pattern *pattern, Vec3 p);     /* through its chain; after wave, frequency, phase */
+    void (*patterns)(void *user, const Pattern *pattern, Vec3 *p, double *out, int n);
 } SdlHost;
 
 typedef struct SdlDeclare { Str name, value; bool is_string; } SdlDeclare;

@@ -90,29 +90,28 @@ static const Image *function_image(Parser *p)
     parse_comma(p);
     int h = side(p);
     const Function *f = parse_function(p, parameters, 3);
-    double at[3] = { 0, 0, 0 }, v[5];
-    bool colour = func_call_vector(f, at, v);
+    bool colour = func_terms(f) > 1;
     int channels = colour ? 4 : 1;
     uint16_t *samples = arena_array(p->arena, uint16_t, (size_t)w * (size_t)h * (size_t)channels);
     uint16_t *out = samples;
     double *row = arena_array(p->arena, double, 4 * (size_t)w);
     const double *const arguments[] = { row, row + w, row + 2 * w };
-    double *value = row + 3 * w;
+    double *value = row + 3 * w, (*colours)[5] = colour ? arena_alloc_array(p->arena, (size_t)w, sizeof *colours) : NULL;
     for (int x = 0; x < w; x++)
         row[x] = w > 1 ? (double)x / (w - 1) : 0;
     for (int y = 0; y < h; y++) {
-        at[1] = h > 1 ? (double)y / (h - 1) : 0;
         for (int x = 0; x < w; x++)
-            row[w + x] = at[1];
-        if (!colour)
+            row[w + x] = h > 1 ? (double)y / (h - 1) : 0;
+        if (colour)
+            func_eval_vector(f, arguments, colours, (uint32_t)w);
+        else
             func_eval(f, arguments, value, (uint32_t)w);
         for (int x = 0; x < w; x++) {
             if (!colour) {
                 *out++ = sample(value[x]);
                 continue;
             }
-            at[0] = row[x];
-            func_call_vector(f, at, v);
+            const double *v = colours[x];
             *out++ = sample(v[0]);
             *out++ = sample(v[1]);
             *out++ = sample(v[2]);

@@ -1,4 +1,6 @@
 /* pigment.c - the colour of a pigment at a point (07-textures, section 4), and whether it ever lets light through. */
+#include <string.h>
+
 #include "image/image.h"
 #include "pattern/pattern.h"
 #include "scene/image_map.h"
@@ -78,6 +80,80 @@ Colour pigment_colour(const Pigment *pigment, Vec3 p, const TextureContext *at, 
     case PIGMENT_UV: return pigment_colour(pigment->map.entry[0].pigment, vec3(at->uv.u, at->uv.v, 0), at, found);
     }
     return pigment->colour;
+}
+
+/* ---- many points ---- */
+
+enum { DEEPEST_OF_MANY = 16 };                 /* patterns within patterns: each takes some kilobytes of stack here */
+
+/* The two ends of all spots of a pigment map; the points that ask for the same entry go together. */
+static void ends_of(const MapSpot *spot, const Vec3 *p, Colour *from, Colour *to, int n)
+{
+    struct { const MapEntry *entry; Vec3 p; Colour *into; } ask[2 * PATTERN_MANY];
+    int left = 0;
+    for (int i = 0; i < n; i++) {
+        ask[left].entry = spot[i].to;
+        ask[left].p = p[i];
+        ask[left++].into = &to[i];
+        if (spot[i].from == NULL)
+            continue;
+        ask[left].entry = spot[i].from;
+        ask[left].p = p[i];
+        ask[left++].into = &from[i];
+    }
+    while (left > 0) {
+        const MapEntry *entry = ask[0].entry;
+        Vec3 at[PATTERN_MANY];
+        Colour colour[PATTERN_MANY], *into[PATTERN_MANY];
+        int some = 0, others = 0;
+        for (int k = 0; k < left; k++) {
+            if (ask[k].entry == entry) {
+                at[some] = ask[k].p;
+                into[some++] = ask[k].into;
+            } else {
+                ask[others++] = ask[k];
+            }
+        }
+        pigment_colours(entry->pigment, at, colour, some);
+        for (int k = 0; k < some; k++)
+            *into[k] = colour[k];
+        left = others;
+    }
+}
+
+static void patterned_many(const Pigment *pigment, const Vec3 *p, Colour *out, int n)
+{
+    Vec3 q[PATTERN_MANY];
+    double v[PATTERN_MANY];
+    MapSpot spot[PATTERN_MANY];
+    Colour from[PATTERN_MANY];
+    memcpy(q, p, (size_t)n * sizeof *q);
+    pattern_points(pigment->pattern, q, n);
+    pattern_values(pigment->pattern, q, v, n);
+    BlendMap map = map_of(pigment);
+    for (int i = 0; i < n; i++)
+        spot[i] = map_find(map.entry, map.n, v[i]);
+    if (map.kind == MAP_COLOUR) {
+        for (int i = 0; i < n; i++) {
+            out[i] = spot[i].to->colour;
+            from[i] = spot[i].from != NULL ? spot[i].from->colour : out[i];
+        }
+    } else {
+        ends_of(spot, q, from, out, n);
+    }
+    for (int i = 0; i < n; i++)
+        if (spot[i].from != NULL)
+            out[i] = colour_lerp(from[i], out[i], (float)spot[i].t);
+}
+
+void pigment_colours(const Pigment *pigment, const Vec3 *p, Colour *out, int n)
+{
+    if (n > 1 && pigment->kind == PIGMENT_PATTERN && pigment->pattern->depth <= DEEPEST_OF_MANY) {
+        patterned_many(pigment, p, out, n);
+        return;
+    }
+    for (int i = 0; i < n; i++)
+        out[i] = pigment_colour(pigment, p[i], &nowhere, NULL);
 }
 
 static bool clear(Colour c)

@@ -12,6 +12,9 @@
  * the colour is then rgb 1, transmit 1. */
 Colour pigment_colour(const Pigment *pigment, Vec3 p, const TextureContext *at, bool *found);
 
+/* The same for n <= PATTERN_MANY points where there is no surface, as functions ask them. Same bits. */
+void pigment_colours(const Pigment *pigment, const Vec3 *p, Colour *out, int n);
+
 /* n perturbed; its length says nothing unless the caller normalises. */
 Vec3 normal_perturb(const Normal *normal, Vec3 p, Vec3 n, const TextureContext *at);
 

@@ -29,6 +29,18 @@ static double host_pattern(void *user, const Pattern *pattern, Vec3 p)
     return pattern_value(pattern, p, NULL);
 }
 
+static void host_pigments(void *user, const Pigment *pigment, Vec3 *p, Colour *out, int n)
+{
+    (void)user;
+    pigment_colours(pigment, p, out, n);
+}
+
+static void host_patterns(void *user, const Pattern *pattern, Vec3 *p, double *out, int n)
+{
+    (void)user;
+    pattern_values(pattern, p, out, n);
+}
+
 bool scene_text(SceneText *s, const char *text)
 {
     const char *accel = s->accel;
@@ -43,7 +55,8 @@ bool scene_text(SceneText *s, const char *text)
         return false;
     static const Str path[] = { { "/usr/share/povray-3.7/include", 29 }, { "tests/vectors/inputs", 20 } };
     SdlHost host = { .registry = &registry, .user = s->query, .trace = query_trace, .inside = query_inside,
-                     .extent = query_extent, .world = query_world, .pigment = host_pigment, .pattern = host_pattern };
+                     .extent = query_extent, .world = query_world, .pigment = host_pigment, .pigments = host_pigments,
+                     .pattern = host_pattern, .patterns = host_patterns };
     SdlOptions options = { .width = 160, .height = 120, .version = 370, .input_name = str_of("test"), .library_path = path,
                            .n_library_paths = 2 };
     sdl_parse(&s->arena, s->diag, &host, &options, str_of("test.pov"), str_of(text), &s->scene);
