@@ -1,4 +1,4 @@
-/* simd.h - f4 and f8: four and eight floats at once, the same results behind every instruction set.
+/* simd.h - f4, f8 and d4: four and eight floats, four doubles at once, the same results behind every instruction set.
  *
  * Only elementwise IEEE operations, so all versions give the same bits. max and min return the second operand when
  * either is NaN, as SSE does. */
@@ -13,6 +13,7 @@
 #include <emmintrin.h>
 
 typedef struct f4 { __m128 v; } f4;
+typedef struct d4 { __m128d a, b; } d4;
 
 static inline f4 f4_load(const float *p) { return (f4){ _mm_loadu_ps(p) }; }
 static inline void f4_store(float *p, f4 a) { _mm_storeu_ps(p, a.v); }
@@ -26,9 +27,37 @@ static inline int f4_same(f4 a, f4 b) { return _mm_movemask_ps(_mm_cmpeq_ps(a.v,
 /* Toward zero; what no int32_t holds is anything. */
 static inline void f4_to_int(int32_t out[4], f4 a) { _mm_storeu_si128((__m128i_u *)(void *)out, _mm_cvttps_epi32(a.v)); }
 
+static inline d4 d4_load(const double *p) { return (d4){ _mm_loadu_pd(p), _mm_loadu_pd(p + 2) }; }
+static inline void d4_store(double *p, d4 x) { _mm_storeu_pd(p, x.a), _mm_storeu_pd(p + 2, x.b); }
+static inline d4 d4_set(double x) { return (d4){ _mm_set1_pd(x), _mm_set1_pd(x) }; }
+static inline d4 d4_add(d4 x, d4 y) { return (d4){ _mm_add_pd(x.a, y.a), _mm_add_pd(x.b, y.b) }; }
+static inline d4 d4_sub(d4 x, d4 y) { return (d4){ _mm_sub_pd(x.a, y.a), _mm_sub_pd(x.b, y.b) }; }
+static inline d4 d4_mul(d4 x, d4 y) { return (d4){ _mm_mul_pd(x.a, y.a), _mm_mul_pd(x.b, y.b) }; }
+static inline d4 d4_div(d4 x, d4 y) { return (d4){ _mm_div_pd(x.a, y.a), _mm_div_pd(x.b, y.b) }; }
+static inline d4 d4_max(d4 x, d4 y) { return (d4){ _mm_max_pd(x.a, y.a), _mm_max_pd(x.b, y.b) }; }
+static inline d4 d4_min(d4 x, d4 y) { return (d4){ _mm_min_pd(x.a, y.a), _mm_min_pd(x.b, y.b) }; }
+static inline d4 d4_sqrt(d4 x) { return (d4){ _mm_sqrt_pd(x.a), _mm_sqrt_pd(x.b) }; }
+static inline d4 d4_abs(d4 x) { return (d4){ _mm_andnot_pd(_mm_set1_pd(-0.0), x.a), _mm_andnot_pd(_mm_set1_pd(-0.0), x.b) }; }
+/* Bit i: x[i] < y[i]; x[i] <= y[i]; x[i] == y[i]. NaN is false. */
+static inline uint32_t d4_lt(d4 x, d4 y)
+{
+    return (uint32_t)(_mm_movemask_pd(_mm_cmplt_pd(x.a, y.a)) | _mm_movemask_pd(_mm_cmplt_pd(x.b, y.b)) << 2);
+}
+static inline uint32_t d4_le(d4 x, d4 y)
+{
+    return (uint32_t)(_mm_movemask_pd(_mm_cmple_pd(x.a, y.a)) | _mm_movemask_pd(_mm_cmple_pd(x.b, y.b)) << 2);
+}
+static inline uint32_t d4_eq(d4 x, d4 y)
+{
+    return (uint32_t)(_mm_movemask_pd(_mm_cmpeq_pd(x.a, y.a)) | _mm_movemask_pd(_mm_cmpeq_pd(x.b, y.b)) << 2);
+}
+
 #else
 
+#include <math.h>
+
 typedef struct f4 { float v[4]; } f4;
+typedef struct d4 { double v[4]; } d4;
 
 #define F4_EACH(expression) for (int i = 0; i < 4; i++) expression
 static inline f4 f4_load(const float *p) { f4 r; F4_EACH(r.v[i] = p[i]); return r; }
@@ -41,6 +70,21 @@ static inline f4 f4_max(f4 a, f4 b) { F4_EACH(a.v[i] = a.v[i] > b.v[i] ? a.v[i] 
 static inline f4 f4_min(f4 a, f4 b) { F4_EACH(a.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i]); return a; }
 static inline int f4_same(f4 a, f4 b) { int n = 0; F4_EACH(n += a.v[i] == b.v[i]); return n == 4; }
 static inline void f4_to_int(int32_t out[4], f4 a) { F4_EACH(out[i] = a.v[i] > -0x1p31f && a.v[i] < 0x1p31f ? (int32_t)a.v[i] : 0); }
+
+static inline d4 d4_load(const double *p) { d4 r; F4_EACH(r.v[i] = p[i]); return r; }
+static inline void d4_store(double *p, d4 a) { F4_EACH(p[i] = a.v[i]); }
+static inline d4 d4_set(double x) { d4 r; F4_EACH(r.v[i] = x); return r; }
+static inline d4 d4_add(d4 a, d4 b) { F4_EACH(a.v[i] += b.v[i]); return a; }
+static inline d4 d4_sub(d4 a, d4 b) { F4_EACH(a.v[i] -= b.v[i]); return a; }
+static inline d4 d4_mul(d4 a, d4 b) { F4_EACH(a.v[i] *= b.v[i]); return a; }
+static inline d4 d4_div(d4 a, d4 b) { F4_EACH(a.v[i] /= b.v[i]); return a; }
+static inline d4 d4_max(d4 a, d4 b) { F4_EACH(a.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i]); return a; }
+static inline d4 d4_min(d4 a, d4 b) { F4_EACH(a.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i]); return a; }
+static inline d4 d4_sqrt(d4 a) { F4_EACH(a.v[i] = sqrt(a.v[i])); return a; }
+static inline d4 d4_abs(d4 a) { F4_EACH(a.v[i] = fabs(a.v[i])); return a; }
+static inline uint32_t d4_lt(d4 a, d4 b) { uint32_t m = 0; F4_EACH(m |= (uint32_t)(a.v[i] < b.v[i]) << i); return m; }
+static inline uint32_t d4_le(d4 a, d4 b) { uint32_t m = 0; F4_EACH(m |= (uint32_t)(a.v[i] <= b.v[i]) << i); return m; }
+static inline uint32_t d4_eq(d4 a, d4 b) { uint32_t m = 0; F4_EACH(m |= (uint32_t)(a.v[i] == b.v[i]) << i); return m; }
 
 #endif
 

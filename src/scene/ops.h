@@ -8,6 +8,9 @@
 typedef struct Parser Parser;                  /* sdl/parse.h */
 typedef struct ShapeBuild ShapeBuild;          /* world/build.h */
 typedef struct Ray Ray;                        /* world/ray.h */
+typedef struct Fan Fan;                        /* world/fan.h */
+typedef struct FanHits FanHits;
+typedef struct Vec3s Vec3s;
 typedef struct Hit Hit;
 typedef struct HitSink HitSink;
 typedef struct Surface Surface;
@@ -44,6 +47,10 @@ struct ShapeOps {
     /* Reports every root with t in (ray->t_min, ray->t_max], in any order, by hit_add. t is a function of shape and
      * ray alone: t_max may skip work, never enter arithmetic. The ray is in the prim's local space, d not of unit length. */
     void (*hits)(const void *shape, const Ray *ray, HitSink *sink);
+    /* Optional, for shapes of at most two roots: those that `hits` finds for the rays of a fan, by the very same arithmetic. */
+    void (*fan_hits)(const void *shape, const Fan *fan, FanHits *out);
+    /* Optional. Bit i: point i is inside, just as `inside` says it. */
+    uint32_t (*fan_inside)(const void *shape, const Vec3s *p);
     /* Optional: bounds the shape's solid within a box, all in the shape's space, where it has no finite box of its own: a cone
      * between two planes. */
     Bounds (*within)(const void *shape, Bounds box);

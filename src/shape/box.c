@@ -2,6 +2,7 @@
  * exits, so that a box without thickness shows its far side, as POV-Ray's does. */
 #include "sdl/parse.h"
 #include "shape/shape.h"
+#include "world/fan.h"
 
 typedef struct { Vec3 a, b; } Params;
 typedef struct { double side[2][3]; } Box;                 /* low, high */
@@ -88,6 +89,28 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     hit_add(sink, s.out, s.out_side);
 }
 
+static inline void cut_four(d4 *in, d4 *out, double lo, double hi, d4 d)
+{
+    d4 a = d4_div(d4_set(lo), d), b = d4_div(d4_set(hi), d);
+    *in = d4_max(*in, d4_min(a, b));
+    *out = d4_min(*out, d4_max(a, b));
+}
+
+/* A ray along a side is left to `hits`. Edges are shared by two sides, which does not matter here. */
+static void fan_hits(const void *shape, const Fan *fan, FanHits *out)
+{
+    const Box *box = shape;
+    const double *lo = box->side[0], *hi = box->side[1];
+    d4 enter = d4_set(-INFINITY), leave = d4_set(INFINITY);
+    cut_four(&enter, &leave, lo[0] - fan->o.x, hi[0] - fan->o.x, fan->d.x);
+    cut_four(&enter, &leave, lo[1] - fan->o.y, hi[1] - fan->o.y, fan->d.y);
+    cut_four(&enter, &leave, lo[2] - fan->o.z, hi[2] - fan->o.z, fan->d.z);
+    uint32_t meets = d4_le(enter, leave);
+    fan_hit(fan, out, 0, enter, meets);
+    fan_hit(fan, out, 1, leave, meets);
+    out->unsaid = d4_eq(d4_mul(d4_mul(fan->d.x, fan->d.y), fan->d.z), d4_set(0));
+}
+
 static double reach(const void *shape, Vec3 n)
 {
     const Box *box = shape;
@@ -99,6 +122,18 @@ static bool inside(const void *shape, Vec3 p)
     const Box *box = shape;
     return p.x >= box->side[0][0] && p.x <= box->side[1][0] && p.y >= box->side[0][1] && p.y <= box->side[1][1] &&
            p.z >= box->side[0][2] && p.z <= box->side[1][2];
+}
+
+static inline uint32_t between_four(double lo, d4 x, double hi)
+{
+    return d4_le(d4_set(lo), x) & d4_le(x, d4_set(hi));
+}
+
+static uint32_t fan_inside(const void *shape, const Vec3s *p)
+{
+    const Box *box = shape;
+    const double *lo = box->side[0], *hi = box->side[1];
+    return between_four(lo[0], p->x, hi[0]) & between_four(lo[1], p->y, hi[1]) & between_four(lo[2], p->z, hi[2]);
 }
 
 /* A cross of six squares in a picture four wide and three high (08-shapes, section 8). */
@@ -139,5 +174,5 @@ static Bounds extent(const void *params, const Affine *place)
 
 const ShapeOps shape_box = {
     .keyword = "box", .params_size = sizeof(Params), .flags = SHAPE_HAS_UV | SHAPE_CONVEX | SHAPE_FLAT, .parse = parse, .compile = compile,
-    .hits = hits, .reach = reach, .inside = inside, .surface = surface, .extent = extent,
+    .hits = hits, .fan_hits = fan_hits, .fan_inside = fan_inside, .reach = reach, .inside = inside, .surface = surface, .extent = extent,
 };

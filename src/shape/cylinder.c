@@ -4,6 +4,7 @@
  * rims. Parts: 0 side, 1 and 2 the ends at z = 0 and 1. */
 #include "sdl/parse.h"
 #include "shape/shape.h"
+#include "world/fan.h"
 
 typedef struct { Vec3 end1, end2; double radius; } Params;
 typedef struct { bool open; } Cylinder;
@@ -75,6 +76,23 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
         hit_add(sink, end_out, d.z > 0 ? 2 : 1);
 }
 
+static void fan_hits(const void *shape, const Fan *fan, FanHits *out)
+{
+    const Cylinder *c = shape;
+    Vec3 o = fan->o;
+    d4 dx = fan->d.x, dy = fan->d.y, dz = fan->d.z, zero = d4_set(0), ox = d4_set(o.x), oy = d4_set(o.y);
+    d4 a = d4_add(d4_mul(dx, dx), d4_mul(dy, dy));
+    d4 middle = d4_div(d4_sub(zero, d4_add(d4_mul(ox, dx), d4_mul(oy, dy))), a);
+    d4 x = d4_add(ox, d4_mul(middle, dx)), y = d4_add(oy, d4_mul(middle, dy));
+    d4 h2 = d4_sub(d4_set(1), d4_add(d4_mul(x, x), d4_mul(y, y))), half = d4_sqrt(d4_div(h2, a));
+    d4 enter = d4_sub(middle, half), leave = d4_add(middle, half);
+    d4 t0 = d4_div(d4_set(-o.z), dz), t1 = d4_div(d4_set(1 - o.z), dz), end_in = d4_min(t0, t1), end_out = d4_max(t0, t1);
+    uint32_t meets = d4_le(zero, h2) & d4_le(enter, end_out) & d4_le(end_in, leave);
+    fan_hit(fan, out, 0, d4_max(enter, end_in), c->open ? meets & d4_le(end_in, enter) : meets);
+    fan_hit(fan, out, 1, d4_min(leave, end_out), c->open ? meets & d4_le(leave, end_out) : meets);
+    out->unsaid = d4_eq(d4_mul(a, dz), zero);      /* along the axis or the ends */
+}
+
 static double reach(const void *shape, Vec3 n)
 {
     (void)shape;
@@ -85,6 +103,13 @@ static bool inside(const void *shape, Vec3 p)
 {
     double margin = ((const Cylinder *)shape)->open ? MARGIN : -MARGIN;
     return p.x * p.x + p.y * p.y < (1 + margin) * (1 + margin) && p.z > -margin && p.z < 1 + margin;
+}
+
+static uint32_t fan_inside(const void *shape, const Vec3s *p)
+{
+    double margin = ((const Cylinder *)shape)->open ? MARGIN : -MARGIN;
+    d4 r2 = d4_add(d4_mul(p->x, p->x), d4_mul(p->y, p->y));
+    return d4_lt(r2, d4_set((1 + margin) * (1 + margin))) & d4_lt(d4_set(-margin), p->z) & d4_lt(p->z, d4_set(1 + margin));
 }
 
 static void surface(const void *shape, const Hit *hit, Surface *out)
@@ -109,5 +134,5 @@ static Bounds extent(const void *params, const Affine *place)
 
 const ShapeOps shape_cylinder = {
     .keyword = "cylinder", .params_size = sizeof(Params), .flags = SHAPE_HAS_OPEN | SHAPE_CONVEX, .parse = parse,
-    .compile = compile, .hits = hits, .reach = reach, .inside = inside, .surface = surface, .extent = extent,
+    .compile = compile, .hits = hits, .fan_hits = fan_hits, .fan_inside = fan_inside, .reach = reach, .inside = inside, .surface = surface, .extent = extent,
 };

@@ -1,6 +1,7 @@
 /* disc.c - a flat ring: disc { centre, normal, outer [, hole] }. */
 #include "sdl/parse.h"
 #include "shape/shape.h"
+#include "world/fan.h"
 
 typedef struct { Vec3 centre, normal; double outer, hole; } Params;
 typedef struct { Vec3 centre, normal; double outer2, hole2; } Disc;
@@ -43,6 +44,16 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
         hit_add(sink, t, 0);
 }
 
+static void fan_hits(const void *shape, const Fan *fan, FanHits *out)
+{
+    const Disc *d = shape;
+    Vec3 v = sub(fan->o, d->centre);
+    d4 t = d4_div(d4_set(-dot(d->normal, v)), vec3s_dot(vec3s_set(d->normal), fan->d));    /* a slope of 0: never within the ring */
+    Vec3s on = vec3s_add(vec3s_set(v), vec3s_scaled(fan->d, t));
+    d4 r2 = vec3s_dot(on, on);
+    fan_hit(fan, out, 0, t, d4_le(d4_set(d->hole2), r2) & d4_le(r2, d4_set(d->outer2)));
+}
+
 /* POV: everything behind the disc's plane is inside, however far from the ring. */
 static bool inside(const void *shape, Vec3 p)
 {
@@ -68,5 +79,5 @@ static Bounds extent(const void *params, const Affine *place)
 
 const ShapeOps shape_disc = {
     .keyword = "disc", .params_size = sizeof(Params), .flags = SHAPE_NO_BOX_IN_CSG | SHAPE_FLAT, .parse = parse, .compile = compile,
-    .hits = hits, .inside = inside, .surface = surface, .extent = extent,
+    .hits = hits, .fan_hits = fan_hits, .inside = inside, .surface = surface, .extent = extent,
 };

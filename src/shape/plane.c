@@ -1,6 +1,7 @@
 /* plane.c - plane { normal, distance }: the half space on the side that the normal leaves is solid. */
 #include "sdl/parse.h"
 #include "shape/shape.h"
+#include "world/fan.h"
 
 typedef struct { Vec3 normal; double distance; } Params;
 
@@ -49,10 +50,25 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     hit_add(sink, (plane->distance - dot(plane->normal, ray->o)) / slope, 0);
 }
 
+static void fan_hits(const void *shape, const Fan *fan, FanHits *out)
+{
+    const Params *plane = shape;
+    d4 slope = vec3s_dot(vec3s_set(plane->normal), fan->d);
+    uint32_t steep = d4_lt(d4_mul(d4_set(FLAT), vec3s_max_abs(fan->d)), d4_abs(slope));
+    fan_hit(fan, out, 0, d4_div(d4_set(plane->distance - dot(plane->normal, fan->o)), slope), steep);
+}
+
 static bool inside(const void *shape, Vec3 p)
 {
     const Params *plane = shape;
     return dot(plane->normal, p) - plane->distance <= FLAT * (max_abs(p) + fabs(plane->distance));
+}
+
+static uint32_t fan_inside(const void *shape, const Vec3s *p)
+{
+    const Params *plane = shape;
+    d4 height = d4_sub(vec3s_dot(vec3s_set(plane->normal), *p), d4_set(plane->distance));
+    return d4_le(height, d4_mul(d4_set(FLAT), d4_add(vec3s_max_abs(*p), d4_set(fabs(plane->distance)))));
 }
 
 static void surface(const void *shape, const Hit *hit, Surface *out)
@@ -79,5 +95,5 @@ static Bounds extent(const void *params, const Affine *place)
 
 const ShapeOps shape_plane = {
     .keyword = "plane", .params_size = sizeof(Params), .flags = SHAPE_CONVEX | SHAPE_FLAT, .parse = parse, .compile = compile,
-    .hits = hits, .inside = inside, .surface = surface, .half_space = half_space, .extent = extent,
+    .hits = hits, .fan_hits = fan_hits, .fan_inside = fan_inside, .inside = inside, .surface = surface, .half_space = half_space, .extent = extent,
 };

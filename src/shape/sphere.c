@@ -1,6 +1,7 @@
 /* sphere.c - sphere { centre, radius }. */
 #include "sdl/parse.h"
 #include "shape/shape.h"
+#include "world/fan.h"
 
 typedef struct { Vec3 centre; double radius; } Params;
 typedef struct { Vec3 centre; double radius, radius2; bool inward; } Sphere;
@@ -40,6 +41,18 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     hit_add(sink, middle + half, 0);
 }
 
+static void fan_hits(const void *shape, const Fan *fan, FanHits *out)
+{
+    const Sphere *s = shape;
+    Vec3s v = vec3s_set(sub(fan->o, s->centre));
+    d4 a = vec3s_dot(fan->d, fan->d), middle = d4_div(d4_sub(d4_set(0), vec3s_dot(v, fan->d)), a);
+    Vec3s nearest = vec3s_add(v, vec3s_scaled(fan->d, middle));
+    d4 h2 = d4_sub(d4_set(s->radius2), vec3s_dot(nearest, nearest)), half = d4_sqrt(d4_div(h2, a));
+    uint32_t meets = d4_lt(d4_set(0), h2);
+    fan_hit(fan, out, 0, d4_sub(middle, half), meets);
+    fan_hit(fan, out, 1, d4_add(middle, half), meets);
+}
+
 static double reach(const void *shape, Vec3 n)
 {
     const Sphere *s = shape;
@@ -50,6 +63,13 @@ static bool inside(const void *shape, Vec3 p)
 {
     const Sphere *s = shape;
     return length2(sub(p, s->centre)) < s->radius2;
+}
+
+static uint32_t fan_inside(const void *shape, const Vec3s *p)
+{
+    const Sphere *s = shape;
+    Vec3s v = vec3s_sub(*p, vec3s_set(s->centre));
+    return d4_lt(vec3s_dot(v, v), d4_set(s->radius2));
 }
 
 static void surface(const void *shape, const Hit *hit, Surface *out)
@@ -76,5 +96,5 @@ static Bounds extent(const void *params, const Affine *place)
 
 const ShapeOps shape_sphere = {
     .keyword = "sphere", .params_size = sizeof(Params), .flags = SHAPE_HAS_UV | SHAPE_CONVEX, .parse = parse, .compile = compile,
-    .hits = hits, .reach = reach, .inside = inside, .surface = surface, .extent = extent,
+    .hits = hits, .fan_hits = fan_hits, .fan_inside = fan_inside, .reach = reach, .inside = inside, .surface = surface, .extent = extent,
 };

@@ -19,17 +19,29 @@ AreaAxes area_axes(const Light *light, Vec3 l)
     return light->def->orient ? oriented(l, length(light->axis1)) : (AreaAxes){ light->axis1, light->axis2 };
 }
 
+/* POV: off by a little, so that it is never 0. */
+static inline double middle_of(const LightSource *def)
+{
+    return def->circular || def->orient ? 0.499 : 0.5;
+}
+
+/* Which place of the grid a sample takes. */
+static inline Vec2 cell_of(Tracer *t, const LightSource *def, int u, int v)
+{
+    Vec2 cell = { u, v };
+    if (def->jitter) {
+        cell.u += streams_uniform(&t->chance) - 0.5;
+        cell.v += streams_uniform(&t->chance) - 0.5;
+    }
+    return cell;
+}
+
 Vec3 area_sample_place(Tracer *t, const Light *light, const AreaAxes *axes, int u, int v)
 {
     const LightSource *def = light->def;
-    double x = u, y = v;
-    if (def->jitter) {
-        x += streams_uniform(&t->chance) - 0.5;
-        y += streams_uniform(&t->chance) - 0.5;
-    }
-    double middle = def->circular || def->orient ? 0.499 : 0.5;    /* POV: off by a little, so that it is never 0 */
-    double s = def->size1 > 1 ? x / (def->size1 - 1) - middle : 0;
-    double r = def->size2 > 1 ? y / (def->size2 - 1) - middle : 0;
+    Vec2 cell = cell_of(t, def, u, v);
+    double s = def->size1 > 1 ? cell.u / (def->size1 - 1) - middle_of(def) : 0;
+    double r = def->size2 > 1 ? cell.v / (def->size2 - 1) - middle_of(def) : 0;
     if (def->circular || def->orient) {
         double distance = sqrt(s * s + r * r), a = fabs(s), b = fabs(r);
         double g = distance > 0 ? (a > b ? a : b) / distance : 0;
@@ -62,8 +74,9 @@ typedef struct Area {
     AreaAxes axes;
     Rgb colour;
     Shaft *among;                              /* what may hide samples; NULL: not known */
-    bool plain;                                /* a sample is hidden or has this colour */
-    Ray ray;                                   /* if plain: starts as those to the samples do */
+    bool fanned;                               /* samples that meet nothing have this colour: asked four at a time */
+    bool plain;                                /* and the others are dark */
+    Ray ray;                                   /* if fanned: starts as those to the samples do */
 } Area;
 
 /* ---- what lies between ---- */
@@ -114,36 +127,24 @@ static Between look_between(const Area *a, Shaft *shaft)
         o = surface_offset(surface, a->l);
         up = slope > 0 ? g : negated(g);
     }
+    uint32_t *last = &spot->t->last_blocker[a->index], closer = *last - 1;
+    if (*last != 0 && window_closed_by(w, o, &window, &closer, 1) != 0)
+        return BETWEEN_DARK;
     world_shaft(w, o, to, PRIM_NO_SHADOW, shaft);
     if (shaft->crowded)
         return BETWEEN_UNKNOWN;
     shaft_narrow(w, o, &window, up, shaft);
+    *last = 0;
     if (shaft->n == 0 && !shadow_dims(spot->t, light))
         return BETWEEN_CLEAR;
-    return shaft_is_closed(w, o, &window, shaft) ? BETWEEN_DARK : BETWEEN_SOME;
+    *last = window_closed_by(w, o, &window, shaft->prim, shaft->n_opaque);
+    return *last != 0 ? BETWEEN_DARK : BETWEEN_SOME;
 }
 
 /* ---- samples ---- */
 
-/* A ray of a plain shaft, as light_towards and shadow_walk make it where they have no choice. */
-static Ray plain_ray(const Area *a, Vec3 from)
-{
-    Vec3 v = sub(from, a->spot->p);
-    double d = length(v);
-    return (Ray){ a->ray.o, d > 0 ? scaled(v, 1 / d) : a->light->axis, a->ray.t_min, d * LIGHT_END };
-}
-
-static Rgb plain_colour(const Area *a, const Ray *ray)
-{
-    return shaft_blocks(a->spot->t->world, a->among, ray) ? rgb_grey(0) : a->colour;
-}
-
 static Rgb seen_from(const Area *a, Vec3 from)
 {
-    if (a->plain) {
-        Ray ray = plain_ray(a, from);
-        return plain_colour(a, &ray);
-    }
     Beam beam;
     light_towards(a->light, from, a->spot->p, &beam);
     return shadow_walk(a->spot, a->index, &beam, a->colour, a->among);
@@ -174,37 +175,124 @@ static f4 ask(const Area *a, AreaSample *sample, int u, int v)
 }
 
 /* POV: a sample counts as known by its red not being negative. Most are known: corners are shared. */
+static inline bool is_known(const Area *a, const AreaSample *sample)
+{
+    return sample->stamp == a->spot->t->area_stamp && sample->colour[0] >= 0;
+}
+
 static inline f4 area_sample(const Area *a, int u, int v)
 {
     AreaSample *sample = sample_at(a, u, v);
-    bool known = sample->stamp == a->spot->t->area_stamp && sample->colour[0] >= 0;
-    return known ? f4_load(sample->colour) : ask(a, sample, u, v);
+    return is_known(a, sample) ? f4_load(sample->colour) : ask(a, sample, u, v);
 }
+
+/* ---- four samples at a time ---- */
+
+typedef struct Asked {                         /* samples that are not known, in the order in which they draw chance */
+    int n;
+    AreaSample *sample[5];
+    double u[5 + FAN_RAYS], v[5 + FAN_RAYS];   /* cell_of each; the rest is room */
+} Asked;
+
+static inline void asked_add(const Area *a, Asked *asked, AreaSample *sample, int u, int v)
+{
+    Vec2 cell = cell_of(a->spot->t, a->light->def, u, v);
+    int n = asked->n++;
+    sample->stamp = a->spot->t->area_stamp;
+    asked->sample[n] = sample;
+    asked->u[n] = cell.u;
+    asked->v[n] = cell.v;
+}
+
+/* As area_sample_place, for a grid of more than one row and column. */
+static Vec3s places_of(const Area *a, const double *u, const double *v)
+{
+    const LightSource *def = a->light->def;
+    d4 middle = d4_set(middle_of(def)), zero = d4_set(0);
+    d4 s = d4_sub(d4_div(d4_load(u), d4_set(def->size1 - 1)), middle);
+    d4 r = d4_sub(d4_div(d4_load(v), d4_set(def->size2 - 1)), middle);
+    if (def->circular || def->orient) {
+        d4 distance = d4_sqrt(d4_add(d4_mul(s, s), d4_mul(r, r)));
+        d4 g = d4_max(d4_div(d4_max(d4_abs(s), d4_abs(r)), distance), zero);   /* 0 / 0 gives 0 */
+        s = d4_mul(s, g);
+        r = d4_mul(r, g);
+    }
+    Vec3s on1 = vec3s_scaled(vec3s_set(a->axes.axis1), s), on2 = vec3s_scaled(vec3s_set(a->axes.axis2), r);
+    return vec3s_add(vec3s_set(a->light->location), vec3s_add(on1, on2));
+}
+
+/* Rays as light_towards and shadow_walk make them where they have no choice. */
+static Fan fan_to(const Area *a, Vec3s from)
+{
+    Vec3s v = vec3s_sub(from, vec3s_set(a->spot->p));
+    d4 d = d4_sqrt(vec3s_dot(v, v));
+    return (Fan){ a->ray.o, a->ray.t_min, vec3s_scaled(v, d4_div(d4_set(1), d)), d4_mul(d, d4_set(LIGHT_END)) };
+}
+
+static Rgb seen_through(const Area *a, Vec3s from, int i)
+{
+    double x[FAN_RAYS], y[FAN_RAYS], z[FAN_RAYS];
+    d4_store(x, from.x);
+    d4_store(y, from.y);
+    d4_store(z, from.z);
+    return seen_from(a, vec3(x[i], y[i], z[i]));
+}
+
+static void asked_see(const Area *a, Asked *asked)
+{
+    for (int first = 0; first < asked->n; first += FAN_RAYS) {
+        int n = asked->n - first < FAN_RAYS ? asked->n - first : FAN_RAYS;
+        for (int i = n; i < FAN_RAYS; i++)     /* rays that nobody looks at */
+            asked->u[first + i] = asked->v[first + i] = 0;
+        Vec3s from = places_of(a, &asked->u[first], &asked->v[first]);
+        Fan fan = fan_to(a, from);
+        uint32_t veiled, hidden = shaft_hides(a->spot->t->world, a->among, &fan, (1u << n) - 1, &veiled);
+        for (int i = 0; i < n; i++)
+            set_sample(asked->sample[first + i], hidden >> i & 1   ? rgb_grey(0)
+                                                 : veiled >> i & 1 ? seen_through(a, from, i)
+                                                                   : a->colour);
+    }
+}
+
+static void see_corners(const Area *a, int u1, int v1, int u2, int v2, f4 c[4])
+{
+    const int u[4] = { u1, u2, u1, u2 }, v[4] = { v1, v1, v2, v2 };
+    AreaSample *sample[4];
+    Asked asked;
+    asked.n = 0;
+    for (int i = 0; i < 4; i++) {
+        sample[i] = sample_at(a, u[i], v[i]);
+        if (!is_known(a, sample[i]))
+            asked_add(a, &asked, sample[i], u[i], v[i]);
+    }
+    if (asked.n > 0)
+        asked_see(a, &asked);
+    for (int i = 0; i < 4; i++)
+        c[i] = f4_load(sample[i]->colour);
+}
+
+/* ---- their mean ---- */
 
 static inline f4 mean(f4 a, f4 b, f4 c, f4 d)
 {
     return f4_mul(f4_add(f4_add(a, b), f4_add(c, d)), f4_set(0.25f));
 }
 
-/* Three by three samples of a plain shaft, the corners known: the quarters ask for the middle and the middles of the sides, in
- * this order, and have nothing left to divide. All rays are made first: their roots and quotients then wait for no answer
- * (4 % of lights/arealit3). */
+/* Three by three samples of a plain light, the corners known: the quarters ask for the middle and the middles of the sides, in
+ * this order, and have nothing left to divide. */
 static f4 mean_of_nine(const Area *a, int u1, int v1, const f4 c[4])
 {
     static const int du[5] = { 1, 0, 1, 2, 1 }, dv[5] = { 0, 1, 1, 1, 2 };
-    AreaSample *sample[5], *asked[5];
-    Ray ray[5];
-    int n = 0;
+    AreaSample *sample[5];
+    Asked asked;
+    asked.n = 0;
     for (int i = 0; i < 5; i++) {
         sample[i] = sample_at(a, u1 + du[i], v1 + dv[i]);
-        if (sample[i]->stamp == a->spot->t->area_stamp)
-            continue;
-        sample[i]->stamp = a->spot->t->area_stamp;
-        asked[n] = sample[i];
-        ray[n++] = plain_ray(a, place_of(a, u1 + du[i], v1 + dv[i]));
+        if (sample[i]->stamp != a->spot->t->area_stamp)
+            asked_add(a, &asked, sample[i], u1 + du[i], v1 + dv[i]);
     }
-    for (int i = 0; i < n; i++)
-        set_sample(asked[i], plain_colour(a, &ray[i]));
+    if (asked.n > 0)
+        asked_see(a, &asked);
     f4 low = f4_load(sample[0]->colour), left = f4_load(sample[1]->colour), middle = f4_load(sample[2]->colour);
     f4 right = f4_load(sample[3]->colour), high = f4_load(sample[4]->colour);
     return mean(mean(c[0], low, left, middle), mean(low, c[1], middle, right), mean(left, middle, c[2], high),
@@ -227,10 +315,15 @@ static bool corners_differ(const f4 c[4])
 
 static f4 area_mean(const Area *a, int u1, int v1, int u2, int v2, int level)
 {
-    f4 c[4] = { area_sample(a, u1, v1) };
-    c[1] = area_sample(a, u2, v1);
-    c[2] = area_sample(a, u1, v2);
-    c[3] = area_sample(a, u2, v2);
+    f4 c[4];
+    if (a->fanned && u1 < u2 && v1 < v2) {
+        see_corners(a, u1, v1, u2, v2, c);
+    } else {
+        c[0] = area_sample(a, u1, v1);
+        c[1] = area_sample(a, u2, v1);
+        c[2] = area_sample(a, u1, v2);
+        c[3] = area_sample(a, u2, v2);
+    }
     if ((u2 - u1 > 1 || v2 - v1 > 1) && (level < a->light->def->adaptive || corners_differ(c))) {
         if (a->plain && u2 - u1 == 2 && v2 - v1 == 2)
             return mean_of_nine(a, u1, v1, c);
@@ -275,7 +368,8 @@ Rgb area_visible(const Spot *spot, uint32_t light, Rgb colour)
         return mean_of_equals(&a, rgb_grey(0));
     if (between == BETWEEN_SOME) {
         a.among = &among;
-        a.plain = colour[0] >= 0 && shaft_is_opaque(spot->t->world, &among) && !shadow_dims(spot->t, source);
+        a.fanned = colour[0] >= 0 && !shadow_dims(spot->t, source);
+        a.plain = a.fanned && among.n_opaque == among.n;
         a.ray = shadow_ray(spot, a.l, 0);      /* look_between has seen that all start there */
     }
     return mean_of_all(&a);

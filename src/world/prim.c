@@ -293,23 +293,6 @@ bool shaft_each_hit(const World *w, const Shaft *shaft, const Ray *ray, HitVisit
     return search.stop;
 }
 
-bool shaft_blocks(const World *w, Shaft *shaft, const Ray *ray)
-{
-    Hit hit;
-    Search search;
-    search_start(&search, w, ray, 0, &hit);
-    for (uint32_t i = 0; i < shaft->n; i++) {
-        uint32_t prim = shaft->prim[i];
-        prim_test(&search, prim);
-        if (search.found) {
-            shaft->prim[i] = shaft->prim[0];
-            shaft->prim[0] = prim;
-            return true;
-        }
-    }
-    return false;
-}
-
 static bool first_will_do(void *user, const Hit *hit)
 {
     (void)user;

@@ -11,6 +11,16 @@ typedef struct Gather {
     Shaft *shaft;
 } Gather;
 
+static void shaft_add(Shaft *s, const World *w, uint32_t prim)
+{
+    uint32_t at = s->n++;
+    if (w->prim[prim].flags & PRIM_OPAQUE) {
+        s->prim[at] = s->prim[s->n_opaque];
+        at = s->n_opaque++;
+    }
+    s->prim[at] = prim;
+}
+
 static bool keep(const Gather *g, uint32_t prim)
 {
     Shaft *s = g->shaft;
@@ -21,7 +31,7 @@ static bool keep(const Gather *g, uint32_t prim)
             return false;
     s->crowded = s->n == SHAFT_MAX;
     if (!s->crowded)
-        s->prim[s->n++] = prim;
+        shaft_add(s, g->world, prim);
     return s->crowded;
 }
 
@@ -57,7 +67,7 @@ static bool stays_on(double side, const Prim *prim, Vec3 o, Bounds to)
 void world_shaft(const World *w, Vec3 o, Bounds to, uint32_t skip, Shaft *out)
 {
     Gather g = { w, skip, out };
-    out->n = 0;
+    out->n = out->n_opaque = 0;
     out->crowded = false;
     for (uint32_t i = 0; i < w->n_unbounded; i++)
         if (!stays_on(1, &w->prim[w->unbounded[i]], o, to) && keep(&g, w->unbounded[i]))
@@ -74,15 +84,13 @@ static const double BEHIND = 0x1p-44;
 /* The rays lie on its inner side: n . x <= at. */
 typedef struct Side {
     Vec3 n;
-    double at, size;                           /* n . o; the length of n */
+    double at, size;                           /* n . o; not less than the length of n */
     double clear;                              /* relative to all distances */
 } Side;
 
-enum { N_SIDES = 5 };
-
 static Side side_through(Vec3 o, Vec3 n, double clear)
 {
-    return (Side){ n, dot(n, o), length(n), clear };
+    return (Side){ n, dot(n, o), fabs(n.x) + fabs(n.y) + fabs(n.z), clear };
 }
 
 static void window_corners(const Window *to, Vec3 o, Vec3 corner[4])
@@ -94,7 +102,7 @@ static void window_corners(const Window *to, Vec3 o, Vec3 corner[4])
     corner[3] = sub(m, difference);
 }
 
-static void window_sides(const Window *to, Vec3 o, Vec3 up, Side side[N_SIDES])
+static void window_sides(const Window *to, Vec3 o, Side side[4])
 {
     Vec3 c[4];
     window_corners(to, o, c);
@@ -102,7 +110,6 @@ static void window_sides(const Window *to, Vec3 o, Vec3 up, Side side[N_SIDES])
         Vec3 n = cross(c[i], c[(i + 1) % 4]);
         side[i] = side_through(o, dot(n, c[(i + 2) % 4]) > 0 ? negated(n) : n, ASIDE);
     }
-    side[4] = side_through(o, negated(up), BEHIND);
 }
 
 /* The prim's box, or all of it by the reach of its shape, is on the outer side. Boxes may be unbounded, their least NaN. */
@@ -122,36 +129,57 @@ static bool stays_beside(const Prim *prim, const Bounds *box, double distance, c
     return least - side->at > side->clear * (size + fabs(offset));
 }
 
-static bool stays_outside_of(const World *w, uint32_t index, Vec3 o, const Side side[N_SIDES])
+static bool stays_outside_of(const World *w, uint32_t index, Vec3 o, const Side *side, uint32_t n)
 {
     const Prim *prim = &w->prim[index];
     const Bounds *box = &w->box[index];
     double distance = max_abs(box->lo) + max_abs(box->hi) + max_abs(o);
-    for (int k = N_SIDES - 1; k >= 0; k--)     /* the surface that the rays leave is most often what is in question */
+    for (uint32_t k = 0; k < n; k++)
         if (stays_beside(prim, box, distance, &side[k]))
             return true;
     return false;
+}
+
+static void drop_beside(const World *w, Vec3 o, const Side *side, uint32_t n_sides, Shaft *shaft)
+{
+    uint32_t n = shaft->n;
+    shaft->n = shaft->n_opaque = 0;
+    for (uint32_t i = 0; i < n; i++)
+        if (!stays_outside_of(w, shaft->prim[i], o, side, n_sides))
+            shaft_add(shaft, w, shaft->prim[i]);
 }
 
 void shaft_narrow(const World *w, Vec3 o, const Window *to, Vec3 up, Shaft *shaft)
 {
     if (shaft->n == 0)
         return;
-    Side side[N_SIDES];
-    uint32_t n = 0;
-    window_sides(to, o, up, side);
-    for (uint32_t i = 0; i < shaft->n; i++)
-        if (!stays_outside_of(w, shaft->prim[i], o, side))
-            shaft->prim[n++] = shaft->prim[i];
-    shaft->n = n;
+    Side side[4], below = side_through(o, negated(up), BEHIND);
+    drop_beside(w, o, &below, 1, shaft);       /* the surface that the rays leave is most often what is in question */
+    if (shaft->n == 0)
+        return;
+    window_sides(to, o, side);
+    drop_beside(w, o, side, 4, shaft);
 }
 
-bool shaft_is_opaque(const World *w, const Shaft *shaft)
+/* ---- fans ---- */
+
+/* What hides all of them moves to the front: neighbouring fans ask it first. */
+uint32_t shaft_hides(const World *w, Shaft *shaft, const Fan *fan, uint32_t rays, uint32_t *veiled)
 {
-    for (uint32_t i = 0; i < shaft->n; i++)
-        if (!(w->prim[shaft->prim[i]].flags & PRIM_OPAQUE))
-            return false;
-    return true;
+    uint32_t hidden = 0;
+    *veiled = 0;
+    for (uint32_t i = 0; i < shaft->n_opaque; i++) {
+        uint32_t prim = shaft->prim[i];
+        hidden |= fan_meets(w, prim, fan, rays & ~hidden);
+        if (hidden == rays) {
+            shaft->prim[i] = shaft->prim[0];
+            shaft->prim[0] = prim;
+            return hidden;
+        }
+    }
+    for (uint32_t i = shaft->n_opaque; i < shaft->n; i++)
+        *veiled |= fan_meets(w, shaft->prim[i], fan, rays & ~hidden);
+    return hidden;
 }
 
 /* ---- closed by one prim ---- */
@@ -186,35 +214,51 @@ static bool may_overlap(Bounds a, Bounds b, double margin)
            a.lo.z <= b.hi.z + margin && b.lo.z <= a.hi.z + margin;
 }
 
-/* What a convex body hides from o is convex, too: if it hides the corners of a window, it hides all of it. */
-static bool closes(const World *w, uint32_t index, Vec3 o, const Vec3 corner[4])
+static Fan fan_of_corners(Vec3 o, const Vec3 corner[4])
 {
-    static const uint32_t needed = PRIM_OPAQUE | PRIM_CONVEX;
-    const Prim *prim = &w->prim[index];
-    if ((prim->flags & needed) != needed || prim->csg != 0)
-        return false;
+    double x[4], y[4], z[4];
     for (int i = 0; i < 4; i++) {
-        Ray ray = { o, corner[i], AWAY, 1 - AWAY };
-        if (!prim_meets(w, index, &ray, 0))
-            return false;
+        x[i] = corner[i].x;
+        y[i] = corner[i].y;
+        z[i] = corner[i].z;
     }
+    return (Fan){ o, AWAY, { d4_load(x), d4_load(y), d4_load(z) }, d4_set(1 - AWAY) };
+}
+
+/* What a convex body hides from o is convex, too: if it hides the corners of a window, it hides all of it. */
+static bool closes(const World *w, uint32_t index, Vec3 o, const Vec3 corner[4], const Fan *to_corners)
+{
+    const Prim *prim = &w->prim[index];
+    if (fan_meets(w, index, to_corners, FAN_ALL) != FAN_ALL)
+        return false;
     Vec3 end[4] = { add(o, corner[0]), add(o, corner[1]), add(o, corner[2]), add(o, corner[3]) };
     double margin = WIDER * max_abs(corner[0]);
     return prim->ops->half_space != NULL || !may_hold(w->box[index], o, margin) ||
            !may_overlap(w->box[index], bounds_of_points(end, 4), margin);
 }
 
-bool shaft_is_closed(const World *w, Vec3 o, const Window *to, const Shaft *shaft)
+uint32_t window_closed_by(const World *w, Vec3 o, const Window *to, const uint32_t *index, uint32_t n)
 {
-    Window wider;
-    if (shaft->n == 0 || !window_widened(to, o, &wider))
-        return false;
+    static const uint32_t needed = PRIM_OPAQUE | PRIM_CONVEX;
     Vec3 corner[4];
-    window_corners(&wider, o, corner);
-    for (uint32_t i = 0; i < shaft->n; i++)
-        if (closes(w, shaft->prim[i], o, corner))
-            return true;
-    return false;
+    Fan to_corners;
+    bool ready = false;
+    for (uint32_t i = 0; i < n; i++) {
+        const Prim *prim = &w->prim[index[i]];
+        if ((prim->flags & needed) != needed || prim->csg != 0)
+            continue;
+        if (!ready) {
+            Window wider;
+            if (!window_widened(to, o, &wider))
+                return 0;
+            window_corners(&wider, o, corner);
+            to_corners = fan_of_corners(o, corner);
+            ready = true;
+        }
+        if (closes(w, index[i], o, corner, &to_corners))
+            return index[i] + 1;
+    }
+    return 0;
 }
 
 /* ---- bodies ---- */

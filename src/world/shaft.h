@@ -2,13 +2,14 @@
 #ifndef WORLD_SHAFT_H
 #define WORLD_SHAFT_H
 
+#include "world/fan.h"
 #include "world/prim.h"
 
 enum { SHAFT_MAX = 24 };
 
-/* All prims that a ray from `o` to a point of a box may hit, each once, or `crowded`: too many to keep. */
+/* All prims that a ray from `o` to a point of a box may hit, each once, opaque ones first, or `crowded`: too many to keep. */
 typedef struct Shaft {
-    uint32_t n, prim[SHAFT_MAX];
+    uint32_t n, n_opaque, prim[SHAFT_MAX];
     bool crowded;
 } Shaft;
 
@@ -22,16 +23,15 @@ typedef struct Window { Vec3 middle, half1, half2; } Window;
  * which may touch a prim to within the error of a surface; zero: nothing is known. */
 void shaft_narrow(const World *w, Vec3 o, const Window *to, Vec3 up, Shaft *shaft);
 
-/* Does one opaque prim stand in the way of every ray from o to a point of the window? False if that is not easily said. */
-bool shaft_is_closed(const World *w, Vec3 o, const Window *to, const Shaft *shaft);
+/* Which of these prims, + 1, is opaque and alone stands in the way of every ray from o to a point of the window? 0: none, or it is
+ * not easily said. */
+uint32_t window_closed_by(const World *w, Vec3 o, const Window *to, const uint32_t *prim, uint32_t n);
 
 /* As world_each_hit, for a ray within a shaft that is not crowded. */
 bool shaft_each_hit(const World *w, const Shaft *shaft, const Ray *ray, HitVisit *visit, void *user);
 
-/* Is there any hit? What gives one moves to the front: neighbouring rays ask it first. */
-bool shaft_blocks(const World *w, Shaft *shaft, const Ray *ray);
-
-bool shaft_is_opaque(const World *w, const Shaft *shaft);      /* all of it */
+/* Which rays of a fan does something opaque hide? `veiled`: those of the others that meet anything. */
+uint32_t shaft_hides(const World *w, Shaft *shaft, const Fan *fan, uint32_t rays, uint32_t *veiled);
 
 /* Do the bodies that contain o contain all of the box, too? False if that is not easily said. */
 bool world_same_bodies(const World *w, Vec3 o, Bounds box);

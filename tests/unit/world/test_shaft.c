@@ -124,7 +124,7 @@ static void narrowing_leaves_out_only_what_no_ray_meets(void **state)
 
 static void expect_closed_is_dark(const World *w, const View *v, Dice *d, const Shaft *shaft, int *seen)
 {
-    if (!shaft_is_closed(w, v->o, &v->to, shaft))
+    if (window_closed_by(w, v->o, &v->to, shaft->prim, shaft->n) == 0)
         return;
     ++*seen;
     for (int i = 0; i < RAYS; i++) {
@@ -156,7 +156,7 @@ static void what_can_be_seen_through_closes_no_shaft(void **state)
         v.to = (Window){ scaled(vec3(0, 0, 3), w->unit), scaled(vec3(0.2, 0, 0), w->unit), scaled(vec3(0, 0.2, 0), w->unit) };
         Shaft shaft;
         world_shaft(w, v.o, bounds_of_window(&v.to), PRIM_NO_SHADOW, &shaft);
-        assert_false(shaft_is_closed(w, v.o, &v.to, &shaft));
+        assert_int_equal(window_closed_by(w, v.o, &v.to, shaft.prim, shaft.n), 0);
         scene_text_end(&s);
     }
 }
