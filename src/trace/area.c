@@ -2,7 +2,6 @@
  *
  * The rays to the samples of a light run side by side: what may stand in their way is looked up once, and mostly it is
  * little or nothing. */
-#include "base/simd.h"
 #include "trace/path.h"
 
 /* ---- where samples are ---- */
@@ -160,18 +159,11 @@ static Vec3 place_of(const Area *a, int u, int v)
     return add(a->light->location, area_sample_place(a->spot->t, a->light, &a->axes, u, v));
 }
 
-static void set_sample(AreaSample *sample, Rgb c)
+static Rgb ask(const Area *a, AreaSample *sample, int u, int v)
 {
-    sample->colour[0] = c[0];
-    sample->colour[1] = c[1];
-    sample->colour[2] = c[2];
-}
-
-static f4 ask(const Area *a, AreaSample *sample, int u, int v)
-{
-    set_sample(sample, seen_from(a, place_of(a, u, v)));
+    sample->colour = seen_from(a, place_of(a, u, v));
     sample->stamp = a->spot->t->area_stamp;
-    return f4_load(sample->colour);
+    return sample->colour;
 }
 
 /* POV: a sample counts as known by its red not being negative. Most are known: corners are shared. */
@@ -180,10 +172,10 @@ static inline bool is_known(const Area *a, const AreaSample *sample)
     return sample->stamp == a->spot->t->area_stamp && sample->colour[0] >= 0;
 }
 
-static inline f4 area_sample(const Area *a, int u, int v)
+static inline Rgb area_sample(const Area *a, int u, int v)
 {
     AreaSample *sample = sample_at(a, u, v);
-    return is_known(a, sample) ? f4_load(sample->colour) : ask(a, sample, u, v);
+    return is_known(a, sample) ? sample->colour : ask(a, sample, u, v);
 }
 
 /* ---- four samples at a time ---- */
@@ -248,13 +240,13 @@ static void asked_see(const Area *a, Asked *asked)
         Fan fan = fan_to(a, from);
         uint32_t veiled, hidden = shaft_hides(a->spot->t->world, a->among, &fan, (1u << n) - 1, &veiled);
         for (int i = 0; i < n; i++)
-            set_sample(asked->sample[first + i], hidden >> i & 1   ? rgb_grey(0)
-                                                 : veiled >> i & 1 ? seen_through(a, from, i)
-                                                                   : a->colour);
+            asked->sample[first + i]->colour = hidden >> i & 1   ? rgb_grey(0)
+                                               : veiled >> i & 1 ? seen_through(a, from, i)
+                                                                 : a->colour;
     }
 }
 
-static void see_corners(const Area *a, int u1, int v1, int u2, int v2, f4 c[4])
+static void see_corners(const Area *a, int u1, int v1, int u2, int v2, Rgb c[4])
 {
     const int u[4] = { u1, u2, u1, u2 }, v[4] = { v1, v1, v2, v2 };
     AreaSample *sample[4];
@@ -268,19 +260,19 @@ static void see_corners(const Area *a, int u1, int v1, int u2, int v2, f4 c[4])
     if (asked.n > 0)
         asked_see(a, &asked);
     for (int i = 0; i < 4; i++)
-        c[i] = f4_load(sample[i]->colour);
+        c[i] = sample[i]->colour;
 }
 
 /* ---- their mean ---- */
 
-static inline f4 mean(f4 a, f4 b, f4 c, f4 d)
+static inline Rgb mean(Rgb a, Rgb b, Rgb c, Rgb d)
 {
-    return f4_mul(f4_add(f4_add(a, b), f4_add(c, d)), f4_set(0.25f));
+    return rgb_scaled(rgb_add(rgb_add(a, b), rgb_add(c, d)), 0.25f);
 }
 
 /* Three by three samples of a plain light, the corners known: the quarters ask for the middle and the middles of the sides, in
  * this order, and have nothing left to divide. */
-static f4 mean_of_nine(const Area *a, int u1, int v1, const f4 c[4])
+static Rgb mean_of_nine(const Area *a, int u1, int v1, const Rgb c[4])
 {
     static const int du[5] = { 1, 0, 1, 2, 1 }, dv[5] = { 0, 1, 1, 1, 2 };
     AreaSample *sample[5];
@@ -293,29 +285,36 @@ static f4 mean_of_nine(const Area *a, int u1, int v1, const f4 c[4])
     }
     if (asked.n > 0)
         asked_see(a, &asked);
-    f4 low = f4_load(sample[0]->colour), left = f4_load(sample[1]->colour), middle = f4_load(sample[2]->colour);
-    f4 right = f4_load(sample[3]->colour), high = f4_load(sample[4]->colour);
+    Rgb low = sample[0]->colour, left = sample[1]->colour, middle = sample[2]->colour;
+    Rgb right = sample[3]->colour, high = sample[4]->colour;
     return mean(mean(c[0], low, left, middle), mean(low, c[1], middle, right), mean(left, middle, c[2], high),
                 mean(middle, right, high, c[3]));
 }
 
-static float apart(f4 a, f4 b)
+static float apart(Rgb a, Rgb b)
 {
-    float d[4];
-    f4_store(d, f4_sub(a, b));
+    Rgb d = rgb_sub(a, b);
     return fabsf(d[0]) + fabsf(d[1]) + fabsf(d[2]);
 }
 
-static bool corners_differ(const f4 c[4])
+/* Surely: the fourth numbers have no meaning, but count. */
+static inline bool are_same(Rgb a, Rgb b)
 {
-    if (f4_same(c[0], c[1]) && f4_same(c[1], c[2]) && f4_same(c[2], c[3]))
+    typedef int64_t Halves __attribute__((vector_size(16)));
+    Halves equal = (Halves)(a == b);
+    return (equal[0] & equal[1]) == -1;
+}
+
+static bool corners_differ(const Rgb c[4])
+{
+    if (are_same(c[0], c[1]) && are_same(c[1], c[2]) && are_same(c[2], c[3]))
         return false;
     return apart(c[0], c[1]) > 0.1f || apart(c[1], c[3]) > 0.1f || apart(c[3], c[2]) > 0.1f || apart(c[2], c[0]) > 0.1f;
 }
 
-static f4 area_mean(const Area *a, int u1, int v1, int u2, int v2, int level)
+static Rgb area_mean(const Area *a, int u1, int v1, int u2, int v2, int level)
 {
-    f4 c[4];
+    Rgb c[4];
     if (a->fanned && u1 < u2 && v1 < v2) {
         see_corners(a, u1, v1, u2, v2, c);
     } else {
@@ -339,10 +338,8 @@ static f4 area_mean(const Area *a, int u1, int v1, int u2, int v2, int level)
 static Rgb mean_of_all(const Area *a)
 {
     const LightSource *def = a->light->def;
-    float c[4];
     a->spot->t->area_stamp++;
-    f4_store(c, area_mean(a, 0, 0, def->size1 - 1, def->size2 - 1, 0));
-    return rgb(c[0], c[1], c[2]);
+    return area_mean(a, 0, 0, def->size1 - 1, def->size2 - 1, 0);
 }
 
 /* All samples are the same, and so is their mean, exactly. They would have drawn from the stream, though. */

@@ -81,7 +81,7 @@ struct Tracing {
 typedef struct LightSpan { double from, to; uint32_t light; } LightSpan;
 typedef struct MediaSpan { double from, to; bool lit; } MediaSpan;
 
-typedef struct AreaSample { float colour[4]; uint32_t stamp; } AreaSample;     /* colour[3] stays 0 */
+typedef struct AreaSample { Rgb colour; uint32_t stamp; } AreaSample;
 
 struct Tracer {
     const Tracing *tracing;
