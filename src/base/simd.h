@@ -23,7 +23,6 @@ static inline f4 f4_sub(f4 a, f4 b) { return (f4){ _mm_sub_ps(a.v, b.v) }; }
 static inline f4 f4_mul(f4 a, f4 b) { return (f4){ _mm_mul_ps(a.v, b.v) }; }
 static inline f4 f4_max(f4 a, f4 b) { return (f4){ _mm_max_ps(a.v, b.v) }; }
 static inline f4 f4_min(f4 a, f4 b) { return (f4){ _mm_min_ps(a.v, b.v) }; }
-static inline int f4_same(f4 a, f4 b) { return _mm_movemask_ps(_mm_cmpeq_ps(a.v, b.v)) == 15; }
 /* Toward zero; what no int32_t holds is anything. */
 static inline void f4_to_int(int32_t out[4], f4 a) { _mm_storeu_si128((__m128i_u *)(void *)out, _mm_cvttps_epi32(a.v)); }
 
@@ -68,7 +67,6 @@ static inline f4 f4_sub(f4 a, f4 b) { F4_EACH(a.v[i] -= b.v[i]); return a; }
 static inline f4 f4_mul(f4 a, f4 b) { F4_EACH(a.v[i] *= b.v[i]); return a; }
 static inline f4 f4_max(f4 a, f4 b) { F4_EACH(a.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i]); return a; }
 static inline f4 f4_min(f4 a, f4 b) { F4_EACH(a.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i]); return a; }
-static inline int f4_same(f4 a, f4 b) { int n = 0; F4_EACH(n += a.v[i] == b.v[i]); return n == 4; }
 static inline void f4_to_int(int32_t out[4], f4 a) { F4_EACH(out[i] = a.v[i] > -0x1p31f && a.v[i] < 0x1p31f ? (int32_t)a.v[i] : 0); }
 
 static inline d4 d4_load(const double *p) { d4 r; F4_EACH(r.v[i] = p[i]); return r; }
