@@ -438,6 +438,8 @@ static void choice_rest(Parser *p, Num *out)
 
 void expr_full(Parser *p, Num *out)
 {
+    if (fast_full(p, out))
+        return;
     comparison(p, out);
     logic_rest(p, out);
     choice_rest(p, out);

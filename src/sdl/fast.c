@@ -4,6 +4,7 @@
  * same order and with the same results as expr.c. Whatever is not as plain (macros, directives, warnings, mistakes) makes the
  * attempt fail before anything has been taken, and expr.c starts from the same token. */
 #include <math.h>
+#include <string.h>
 
 #include "sdl/parser.h"
 
@@ -439,13 +440,16 @@ static void full(Fast *f, Num *out)
 
 /* ---- what the others call ---- */
 
+/* A look-ahead that has just been taken from the array can be had there again. */
 static inline bool start(Parser *p, Fast *f)
 {
     const Reader *r = cursor_top(p);
-    if (p->have || r->is_file || p->version < 350)
+    if (r->is_file || p->version < 350)
+        return false;
+    f->at = r->tokens + r->at;
+    if (p->have && (r->at == 0 || memcmp(--f->at, &p->token, sizeof p->token) != 0))
         return false;
     f->p = p;
-    f->at = r->tokens + r->at;
     f->end = r->tokens + r->n;
     f->failed = false;
     f->depth = 0;
@@ -464,13 +468,14 @@ static bool abandon(Fast *f)
 static inline void finish(Parser *p, const Fast *f)
 {
     Reader *r = cursor_top(p);
+    p->have = false;
     r->at = (uint32_t)(f->at - r->tokens);
     if (f->target)
         value_set_number(p, f->target, &(Num){ { f->normal.x, f->normal.y, f->normal.z }, 3 });
 }
 
-/* What comes next certainly ends a sum: it is no macro or directive that might go on with it. */
-static bool at_end_of_sum(const Fast *f)
+/* What comes next certainly ends an expression: it is no macro or directive that might go on with it. */
+static bool at_end(const Fast *f)
 {
     int kind = next_kind(f);
     return kind != TOK_NAME && kind != TOK_HASH && kind != TOK_END;
@@ -482,7 +487,19 @@ bool fast_sum(Parser *p, Num *out)
     if (!start(p, &f))
         return false;
     sum(&f, out);
-    if (f.failed || !at_end_of_sum(&f))
+    if (f.failed || !at_end(&f))
+        return abandon(&f);
+    finish(p, &f);
+    return true;
+}
+
+bool fast_full(Parser *p, Num *out)
+{
+    Fast f;
+    if (!start(p, &f))
+        return false;
+    full(&f, out);
+    if (f.failed || !at_end(&f))
         return abandon(&f);
     finish(p, &f);
     return true;

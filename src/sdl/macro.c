@@ -46,18 +46,13 @@ void macro_define(Parser *p, const Token *directive)
     *v = (Value){ .kind = VALUE_MACRO, .macro = arena_copy(p->arena, &m, sizeof m) };
 }
 
-typedef struct Argument {
-    Value *by_reference;
-    Value value;
-} Argument;
-
 /* An identifier alone goes by reference, any other expression by value; functions always by value. */
-static void argument(Parser *p, Argument *a)
+static void argument(Parser *p, Binding *b)
 {
     int kind = parse_peek(p);
     Value *v = p->value;
     if (kind != TOK_NAME) {
-        value_parse(p, &a->value, false);
+        value_parse(p, &b->own, false);
         return;
     }
     if (!v || v->kind == VALUE_NONE) {
@@ -72,21 +67,21 @@ static void argument(Parser *p, Argument *a)
         switch (parse_peek(p)) {
         case TOK_DOT: case TOK_PLUS: case TOK_MINUS: case TOK_STAR: case TOK_SLASH:
             expr_sum_rest(p, &n);
-            value_set_number(p, &a->value, &n);
+            value_set_number(p, &b->own, &n);
             break;
         default:
-            a->by_reference = v;
+            b->value = v;
         }
     } else if (v->kind == VALUE_FUNCTION || v->kind == VALUE_SPLINE) {
-        value_parse(p, &a->value, false);
+        value_parse(p, &b->own, false);
     } else {
         parse_skip(p);
-        a->by_reference = v;
+        b->value = v;
     }
 }
 
 /* The same for most arguments: literals in files, plain numbers and names in loops and macros. Takes the comma behind it, too. */
-static bool plain_argument(Parser *p, Argument *a)
+static bool plain_argument(Parser *p, Binding *b)
 {
     Reader *r = cursor_top(p);
     Num n;
@@ -94,10 +89,13 @@ static bool plain_argument(Parser *p, Argument *a)
         return false;
     if (r->is_file)
         n.terms = literal_argument(&r->lexer, n.v);
-    if (r->is_file ? n.terms == 0 : !fast_argument(p, &n, &a->by_reference))
+    Value *by_reference = NULL;
+    if (r->is_file ? n.terms == 0 : !fast_argument(p, &n, &by_reference))
         return false;
-    if (!a->by_reference)
-        value_set_number(p, &a->value, &n);
+    if (by_reference)
+        b->value = by_reference;
+    else
+        value_set_number(p, &b->own, &n);
     return true;
 }
 
@@ -107,27 +105,21 @@ void macro_call(Parser *p, const Macro *m, Loc loc)
     p->suspended = false;
     cursor_stop_check(p);
     cursor_deeper(p);
-    ArenaMark mark = arena_mark(&p->temp);
-    Argument *a = arena_array(&p->temp, Argument, m->n_parameters);
+    Binding *all[MAX_PARAMETERS];
     parse_expect(p, TOK_LPAREN);
     for (uint32_t i = 0; i < m->n_parameters; i++) {
-        if (plain_argument(p, &a[i]))
+        Binding *b = all[i] = binding_new(p);
+        if (plain_argument(p, b))
             continue;
         if (parse_peek(p) == TOK_RPAREN)
             fail(p->diag, loc, "Expected %u parameters but only %u found.", m->n_parameters, i);
-        argument(p, &a[i]);
+        argument(p, b);
         parse_comma(p);
     }
     parse_expect(p, TOK_RPAREN);
     symbol_push_table(p, loc);
-    for (uint32_t i = 0; i < m->n_parameters; i++) {
-        Binding *b = symbol_bind(p, m->parameter[i], p->n_tables - 1);
-        if (a[i].by_reference)
-            b->value = a[i].by_reference;
-        else
-            b->own = a[i].value;
-    }
-    arena_rewind(&p->temp, mark);
+    for (uint32_t i = 0; i < m->n_parameters; i++)
+        binding_enter(p, all[i], m->parameter[i], p->n_tables - 1);
     cursor_enter_macro(p, m, loc);
     p->depth--;
     p->suspended = was;

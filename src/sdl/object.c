@@ -356,6 +356,8 @@ static void modifiers(Parser *p, ObjectDraft *d, const char *word, const ShapeOp
     for (;;) {
         int keyword = parse_peek(p);
         Affine move;
+        if (keyword == TOK_CLOSE)
+            break;
         if (own != NULL && own->item != NULL && own->item(p, params)) {
             if (keyword == KW_INSIDE_VECTOR)
                 o->flags |= OBJECT_HAS_INSIDE;

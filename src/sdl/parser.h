@@ -214,7 +214,9 @@ static inline Value *symbol_value(const Sym *s)            /* NULL: undeclared; 
 {
     return s->binding ? s->binding->value : NULL;
 }
-Binding *symbol_bind(Parser *p, Sym *s, uint32_t table);   /* a new binding that hides the others */
+Binding *symbol_bind(Parser *p, Sym *s, uint32_t table);   /* a new binding that hides the others ... */
+Binding *binding_new(Parser *p);               /* ... in two steps: one that holds nothing, ... */
+void binding_enter(Parser *p, Binding *b, Sym *s, uint32_t table);     /* ... and from now on is seen */
 /* Of #declare and #local in that table: the innermost binding from there on outward, or a new one. */
 Binding *symbol_declare(Parser *p, Sym *s, bool local, uint32_t table);
 void symbol_undef(Parser *p, Sym *s);
@@ -248,6 +250,7 @@ static inline double random_next(uint32_t *state)         /* 01-language, sectio
 
 /* fast.c: true if it could be done on the spot; else nothing has been taken. */
 bool fast_sum(Parser *p, Num *out);
+bool fast_full(Parser *p, Num *out);
 bool fast_condition(Parser *p, bool *out);
 bool fast_declare(Parser *p, bool local);
 /* A macro's argument and the comma behind it: a number, or the value of a name alone. */

@@ -199,6 +199,8 @@ static bool pattern_item(Parser *p, PatternDraft *d, int keyword)
 bool pattern_modifier(Parser *p, PatternDraft *d)
 {
     int keyword = parse_peek(p);
+    if (keyword >= N_KEYWORDS)                 /* mostly the brace */
+        return false;
     Affine move;
     switch (keyword) {
     case KW_TRANSLATE: case KW_ROTATE: case KW_SCALE: case KW_MATRIX: case KW_TRANSFORM:

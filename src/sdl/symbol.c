@@ -105,17 +105,24 @@ void symbols_init(Parser *p)
     p->n_tables = 1;
 }
 
-Binding *symbol_bind(Parser *p, Sym *s, uint32_t table)
+Binding *binding_new(Parser *p)
 {
     Binding *b = p->free_bindings;
-    if (b) {
-        p->free_bindings = b->next;
-        *b = (Binding){ 0 };
-    } else {
+    if (!b) {
         b = arena_new(p->arena, Binding);
+        b->value = &b->own;
+        return b;
     }
-    b->sym = s;
+    p->free_bindings = b->next;
     b->value = &b->own;
+    b->own.kind = VALUE_NONE;
+    b->deprecated = b->deprecated_once = false;
+    return b;
+}
+
+void binding_enter(Parser *p, Binding *b, Sym *s, uint32_t table)
+{
+    b->sym = s;
     b->table = table;
     b->next = p->table[table];
     p->table[table] = b;
@@ -124,6 +131,12 @@ Binding *symbol_bind(Parser *p, Sym *s, uint32_t table)
         at = &(*at)->hidden;
     b->hidden = *at;
     *at = b;
+}
+
+Binding *symbol_bind(Parser *p, Sym *s, uint32_t table)
+{
+    Binding *b = binding_new(p);
+    binding_enter(p, b, s, table);
     return b;
 }
 

@@ -80,7 +80,7 @@ static void array_free(Parser *p, ValueArray *a)
     p->free_arrays = a;
 }
 
-void value_clear(Parser *p, Value *v)
+void value_give_back(Parser *p, Value *v)
 {
     Value old = *v;
     *v = (Value){ 0 };                         /* first: an array may, by a reference, be cleared from within */

@@ -88,12 +88,19 @@ struct Spline {
 
 const char *value_type_name(const Value *v);   /* "float identifier", "pigment identifier"... */
 bool value_same_type(const Value *a, const Value *b);
-void value_clear(Parser *p, Value *v);         /* gives back what it owns */
+void value_give_back(Parser *p, Value *v);     /* the string or array that it owns */
 ValueArray *value_array_new(Parser *p, uint32_t n);        /* n > 0 empty items */
 void value_set_number(Parser *p, Value *v, const Num *n);
 void value_set_string(Parser *p, Value *v, Str s);
 void value_copy(Parser *p, Value *to, const Value *from);  /* deep; `to` holds a value or is zeroed */
 void value_move(Parser *p, Value *to, Value *from);
+
+static inline void value_clear(Parser *p, Value *v)
+{
+    if (v->kind == VALUE_STRING || v->kind == VALUE_ARRAY)
+        value_give_back(p, v);
+    v->kind = VALUE_NONE;
+}
 
 static inline Str value_string(const Value *v) { return (Str){ v->string.text, v->n }; }
 
