@@ -1,4 +1,4 @@
-/* simd.h - f4, f8 and d4: four and eight floats, four doubles at once, the same results behind every instruction set.
+/* simd.h - d2 and d4, f4 and f8: two and four doubles, four and eight floats at once, the same results behind every instruction set.
  *
  * Only elementwise IEEE operations, so all versions give the same bits. max and min return the second operand when
  * either is NaN, as SSE does. */
@@ -7,10 +7,24 @@
 
 #include <stdint.h>
 
-/* ---- four at once, for code that is not built per instruction set ---- */
+/* ---- two doubles or four floats, for code that is not built per instruction set ---- */
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
+
+typedef struct d2 { __m128d v; } d2;
+
+static inline d2 d2_load(const double *p) { return (d2){ _mm_loadu_pd(p) }; }
+static inline void d2_store(double *p, d2 a) { _mm_storeu_pd(p, a.v); }
+static inline d2 d2_set(double x) { return (d2){ _mm_set1_pd(x) }; }
+static inline d2 d2_sub(d2 a, d2 b) { return (d2){ _mm_sub_pd(a.v, b.v) }; }
+static inline d2 d2_div(d2 a, d2 b) { return (d2){ _mm_div_pd(a.v, b.v) }; }
+static inline d2 d2_max(d2 a, d2 b) { return (d2){ _mm_max_pd(a.v, b.v) }; }
+static inline d2 d2_min(d2 a, d2 b) { return (d2){ _mm_min_pd(a.v, b.v) }; }
+static inline double d2_low(d2 a) { return _mm_cvtsd_f64(a.v); }
+static inline double d2_high(d2 a) { return _mm_cvtsd_f64(_mm_unpackhi_pd(a.v, a.v)); }
+/* Bit i: a[i] == b[i]. */
+static inline uint32_t d2_eq(d2 a, d2 b) { return (uint32_t)_mm_movemask_pd(_mm_cmpeq_pd(a.v, b.v)); }
 
 typedef struct f4 { __m128 v; } f4;
 typedef struct d4 { __m128d a, b; } d4;
@@ -54,6 +68,19 @@ static inline uint32_t d4_eq(d4 x, d4 y)
 #else
 
 #include <math.h>
+typedef struct d2 { double v[2]; } d2;
+
+#define D2_EACH(expression) for (int i = 0; i < 2; i++) expression
+static inline d2 d2_load(const double *p) { d2 r; D2_EACH(r.v[i] = p[i]); return r; }
+static inline void d2_store(double *p, d2 a) { D2_EACH(p[i] = a.v[i]); }
+static inline d2 d2_set(double x) { d2 r; D2_EACH(r.v[i] = x); return r; }
+static inline d2 d2_sub(d2 a, d2 b) { D2_EACH(a.v[i] -= b.v[i]); return a; }
+static inline d2 d2_div(d2 a, d2 b) { D2_EACH(a.v[i] /= b.v[i]); return a; }
+static inline d2 d2_max(d2 a, d2 b) { D2_EACH(a.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i]); return a; }
+static inline d2 d2_min(d2 a, d2 b) { D2_EACH(a.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i]); return a; }
+static inline double d2_low(d2 a) { return a.v[0]; }
+static inline double d2_high(d2 a) { return a.v[1]; }
+static inline uint32_t d2_eq(d2 a, d2 b) { return (uint32_t)(a.v[0] == b.v[0]) | (uint32_t)(a.v[1] == b.v[1]) << 1; }
 
 typedef struct f4 { float v[4]; } f4;
 typedef struct d4 { double v[4]; } d4;

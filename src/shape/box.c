@@ -1,5 +1,6 @@
 /* box.c - box { corner, corner }: three slabs. A hit's part is its side: axis + 3 for the high one; entries come after
  * exits, so that a box without thickness shows its far side, as POV-Ray's does. */
+#include "base/simd.h"
 #include "sdl/parse.h"
 #include "shape/shape.h"
 #include "world/fan.h"
@@ -49,44 +50,65 @@ static void compile(ShapeBuild *b, const void *params)
     build(b, scaled(box->a, 1 / unit), scaled(box->b, 1 / unit), &place);
 }
 
-/* Where a ray enters and leaves the slabs asked so far. */
-typedef struct Span {
-    double in, out;
-    double in_slope, out_slope;                /* |d| along the axes of these sides; -1: no side yet */
-    uint32_t in_side, out_side;
-} Span;
+/* Where a ray enters and leaves the slabs of the three axes. */
+typedef struct Slabs { double in[3], out[3]; } Slabs;
 
-/* Cuts the span by one more slab; false if the ray runs beside it. An edge belongs to the axis along which the ray is steeper. */
-static inline bool cut(Span *s, const Box *box, uint32_t axis, double o, double d)
+/* A ray that does not move along an axis is within that slab always or never. */
+static __attribute__((noinline)) bool keeps_within(const Box *box, const Ray *ray, Slabs *s)
 {
-    double lo = box->side[0][axis], hi = box->side[1][axis], slope = fabs(d);
-    if (d == 0)
-        return !(o < lo || o > hi);
-    double a = (lo - o) / d, b = (hi - o) / d;
-    double near = d < 0 ? b : a, far = d < 0 ? a : b;
-    if (near > s->in || (near == s->in && slope > s->in_slope)) {
-        s->in = near;
-        s->in_slope = slope;
-        s->in_side = d < 0 ? axis + 3 : axis;
+    for (int axis = 0; axis < 3; axis++) {
+        double o = vec3_at(ray->o, axis);
+        if (vec3_at(ray->d, axis) != 0)
+            continue;
+        if (o < box->side[0][axis] || o > box->side[1][axis])
+            return false;
+        s->in[axis] = -INFINITY;
+        s->out[axis] = INFINITY;
     }
-    if (far < s->out || (far == s->out && slope > s->out_slope)) {
-        s->out = far;
-        s->out_slope = slope;
-        s->out_side = d < 0 ? axis : axis + 3;
-    }
-    return true;
+    return max_abs(ray->d) > 0;
+}
+
+/* Of the axes that meet a side there, the one along which the ray is steepest: an edge is part of that side. */
+static __attribute__((noinline)) uint32_t steepest(Vec3 d, uint32_t axes)
+{
+    double x = axes & 1 ? fabs(d.x) : -1, y = axes & 2 ? fabs(d.y) : -1, z = axes & 4 ? fabs(d.z) : -1;
+    return z > greater(x, y) ? 2 : y > x ? 1 : 0;
+}
+
+static inline uint32_t side_at(const Ray *ray, uint32_t axes, bool high)
+{
+    uint32_t axis = (axes & (axes - 1)) == 0 ? axes >> 1 : steepest(ray->d, axes);
+    return (vec3_at(ray->d, (int)axis) < 0) != high ? axis + 3 : axis;
 }
 
 static void hits(const void *shape, const Ray *ray, HitSink *sink)
 {
     const Box *box = shape;
-    Span s = { -INFINITY, INFINITY, -1, -1, 0, 0 };
-    if (!cut(&s, box, 0, ray->o.x, ray->d.x) || !cut(&s, box, 1, ray->o.y, ray->d.y) || s.in > s.out)
+    d2 o = d2_load(&ray->o.x), d = d2_load(&ray->d.x);         /* x and y */
+    d2 a = d2_div(d2_sub(d2_load(box->side[0]), o), d), b = d2_div(d2_sub(d2_load(box->side[1]), o), d);
+    d2 in = d2_min(a, b), out = d2_max(a, b);
+    double az = (box->side[0][2] - ray->o.z) / ray->d.z, bz = (box->side[1][2] - ray->o.z) / ray->d.z;
+    double in_z = lesser(az, bz), out_z = greater(az, bz);
+    if (ray->d.x * ray->d.y * ray->d.z == 0) {
+        Slabs s;
+        d2_store(s.in, in);
+        d2_store(s.out, out);
+        s.in[2] = in_z;
+        s.out[2] = out_z;
+        if (!keeps_within(box, ray, &s))
+            return;
+        in = d2_load(s.in);
+        out = d2_load(s.out);
+        in_z = s.in[2];
+        out_z = s.out[2];
+    }
+    double enter = greater(greater(d2_low(in), d2_high(in)), in_z), leave = lesser(lesser(d2_low(out), d2_high(out)), out_z);
+    if (enter > leave || leave <= sink->t_min)
         return;
-    if (!cut(&s, box, 2, ray->o.z, ray->d.z) || s.in > s.out || s.in_slope < 0)
-        return;
-    hit_add(sink, s.in, s.in_side + ENTRY);
-    hit_add(sink, s.out, s.out_side);
+    if (enter > sink->t_min && enter <= sink->limit)
+        hit_offer(sink, enter, side_at(ray, d2_eq(in, d2_set(enter)) | (uint32_t)(in_z == enter) << 2, false) + ENTRY, 0, 0);
+    if (leave <= sink->limit)
+        hit_offer(sink, leave, side_at(ray, d2_eq(out, d2_set(leave)) | (uint32_t)(out_z == leave) << 2, true), 0, 0);
 }
 
 static inline void cut_four(d4 *in, d4 *out, double lo, double hi, d4 d)
