@@ -4,6 +4,7 @@
  * those of its ancestors: an endless plane in an intersection becomes a face. */
 #include "compile/context.h"
 #include "compile/polytope.h"
+#include "compile/slice.h"
 
 enum { LISTED_MAX = 8 };                       /* from so many children on, a tree answers "who is around this point?" */
 
@@ -67,6 +68,17 @@ static Bounds cut_by_child(const Compile *c, uint32_t item, Bounds box)
     return bounds_intersection(box, bounds_transformed(local, place));
 }
 
+static HalfSpace half_space_of(const Prim *prim)
+{
+    const Affine *place = prim->place;
+    Vec3 normal;
+    double distance;
+    prim->ops->half_space(prim->data, &normal, &distance);
+    Vec3 on = affine_point(place, scaled(normal, distance)), across = normalized(affine_normal(place, normal));
+    double sign = prim->flags & PRIM_INVERSE ? -1 : 1;
+    return (HalfSpace){ scaled(across, sign), sign * dot(across, on) };
+}
+
 /* What the planes among the children leave of an endless box, together with its sides. */
 static Bounds cut_by_planes(const Compile *c, const Items *children, Bounds box)
 {
@@ -80,20 +92,46 @@ static Bounds cut_by_planes(const Compile *c, const Items *children, Bounds box)
             h[n++].distance = sign * at;
         }
     }
-    for (uint32_t i = 0; i < children->n && n <= POLYTOPE_MAX; i++) {
-        uint32_t item = children->data[i];
-        Vec3 normal;
-        double distance;
-        if (is_node(item) || c->prim.data[item].ops->half_space == NULL)
-            continue;
-        const Prim *prim = &c->prim.data[item];
-        const Affine *place = prim->place;
-        prim->ops->half_space(prim->data, &normal, &distance);
-        Vec3 on = affine_point(place, scaled(normal, distance)), across = normalized(affine_normal(place, normal));
-        double sign = prim->flags & PRIM_INVERSE ? -1 : 1;
-        h[n++] = (HalfSpace){ scaled(across, sign), sign * dot(across, on) };
-    }
+    for (uint32_t i = 0; i < children->n && n <= POLYTOPE_MAX; i++)
+        if (!is_node(children->data[i]) && c->prim.data[children->data[i]].ops->half_space != NULL)
+            h[n++] = half_space_of(&c->prim.data[children->data[i]]);
     return bounds_intersection(box, polytope_box(h, n));
+}
+
+/* Leaves that all contain a point if some intersection does: planes, and those that know what a box leaves of them. */
+enum { PLANES_MAX = 32, SOLIDS_MAX = 8 };
+typedef struct Members {
+    HalfSpace plane[PLANES_MAX];
+    const Prim *solid[SOLIDS_MAX];
+    uint32_t n_planes, n_solids;
+} Members;
+
+static void members_add(const Compile *c, uint32_t item, Members *m)
+{
+    if (is_node(item)) {
+        const CsgNode *node = &c->csg.data[~item];
+        if (node->op == CSG_ALL && !(node->flags & (CSG_INVERSE | CSG_BOUND)))
+            for (uint32_t i = 0; i < node->n; i++)
+                members_add(c, c->csg_child.data[node->first + i], m);
+        return;
+    }
+    const Prim *prim = &c->prim.data[item];
+    if (prim->ops->half_space != NULL && m->n_planes < PLANES_MAX)
+        m->plane[m->n_planes++] = half_space_of(prim);
+    else if (prim->ops->within != NULL && !(prim->flags & (PRIM_INVERSE | PRIM_PATCH)) && m->n_solids < SOLIDS_MAX)
+        m->solid[m->n_solids++] = prim;
+}
+
+/* What is left of an endless box between planes that stand along the axes of some member, or of a member's own members. */
+static Bounds cut_by_slices(const Compile *c, const Items *children, Bounds box)
+{
+    Members m;
+    m.n_planes = m.n_solids = 0;
+    for (uint32_t i = 0; i < children->n; i++)
+        members_add(c, children->data[i], &m);
+    for (uint32_t i = 0; i < m.n_solids; i++)
+        box = bounds_intersection(box, slice_box(m.solid[i], m.plane, m.n_planes));
+    return box;
 }
 
 /* Of all children together. An ALL is outside wherever one child is; if every child is a complement, it is one itself. */
@@ -116,7 +154,7 @@ static Reach reach_of(const Compile *c, CsgOp op, const Items *children)
         for (uint32_t i = 0; i < children->n; i++)
             within = cut_by_child(c, children->data[i], within);
     if (op == CSG_ALL && !bounds_is_finite(within) && !bounds_is_empty(within) && n_co < children->n)
-        within = cut_by_planes(c, children, within);
+        within = cut_by_slices(c, children, cut_by_planes(c, children, within));
     if (op == CSG_ALL)
         return n_co > 0 && n_co == children->n ? (Reach){ co_around, true } : (Reach){ within, false };
     return n_co > 0 ? (Reach){ co_within, true } : (Reach){ around, false };
