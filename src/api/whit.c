@@ -129,7 +129,7 @@ static void host_pigments(void *user, const Pigment *pigment, Vec3 *p, Colour *o
 static double host_pattern(void *user, const Pattern *pattern, Vec3 p)
 {
     (void)user;
-    return pattern_value(pattern, pattern_point(pattern, p), NULL);
+    return pattern_value_at(pattern, pattern_point(pattern, p), NULL);
 }
 
 static void host_patterns(void *user, const Pattern *pattern, Vec3 *p, double *out, int n)

@@ -4,19 +4,9 @@
 #include "math/noise.h"
 #include "pattern/wave.h"
 
-static bool has_own_turbulence(const Pattern *pattern)
-{
-    return pattern->ops != NULL && (pattern->ops->flags & PATTERN_OWN_TURBULENCE);
-}
-
-Vec3 pattern_point(const Pattern *pattern, Vec3 p)
-{
-    return has_own_turbulence(pattern) ? chain_apply_warps(&pattern->chain, p) : chain_apply(&pattern->chain, p);
-}
-
 void pattern_points(const Pattern *pattern, Vec3 *p, int n)
 {
-    chain_apply_many(&pattern->chain, p, n, !has_own_turbulence(pattern));
+    chain_apply_many(&pattern->chain, !pattern_has_own_turbulence(pattern), p, n);
 }
 
 static double wave_value(const Pattern *pattern, double v)
@@ -46,10 +36,10 @@ static inline double finished(const Pattern *pattern, double v)
     return wave_value(pattern, v);
 }
 
-double pattern_value(const Pattern *pattern, Vec3 at, const TextureContext *context)
+double pattern_value(const PatternPoint *at)
 {
-    PatternPoint point = { .p = at, .pattern = pattern, .context = context };
-    return finished(pattern, pattern->ops->value(pattern->params, &point));
+    const Pattern *pattern = at->pattern;
+    return finished(pattern, pattern->ops->value(pattern->params, at));
 }
 
 void pattern_values(const Pattern *pattern, const Vec3 *at, double *out, int n)

@@ -156,34 +156,25 @@ static Vec3 warped(const Warp *w, Vec3 p)
 
 static double limited(double x)
 {
-    return x > 1e17 ? 1e17 : x < -1e17 ? -1e17 : x;
+    return x > PATTERN_FAR ? PATTERN_FAR : x < -PATTERN_FAR ? -PATTERN_FAR : x;
 }
 
-static Vec3 through_warps(const WarpChain *chain, Vec3 p)
+static inline Vec3 within_limits(Vec3 p)
 {
-    for (uint32_t i = 0; i < chain->n; i++)
-        p = warped(&chain->warp[i], p);
-    return p;
+    return pattern_reaches(p) ? p : vec3(limited(p.x), limited(p.y), limited(p.z));
 }
 
-static Vec3 within_limits(Vec3 p)
+Vec3 chain_apply(const WarpChain *chain, bool turbulence, Vec3 p)
 {
-    return vec3(limited(p.x), limited(p.y), limited(p.z));
-}
-
-Vec3 chain_apply_warps(const WarpChain *chain, Vec3 p)
-{
-    return within_limits(through_warps(chain, p));
-}
-
-Vec3 chain_apply(const WarpChain *chain, Vec3 p)
-{
-    p = through_warps(chain, p);
-    return within_limits(chain->has_turbulence ? turbulent(&chain->turbulence, p) : p);
+    for (uint32_t i = 0; i < chain->n; i++) {
+        const Warp *w = &chain->warp[i];
+        p = w->kind == WARP_TRANSFORM ? affine_point_back(&w->transform, p) : warped(w, p);
+    }
+    return within_limits(turbulence && chain->has_turbulence ? turbulent(&chain->turbulence, p) : p);
 }
 
 /* Warp by warp: what each one needs is loaded once for all points. */
-void chain_apply_many(const WarpChain *chain, Vec3 *p, int n, bool turbulence)
+void chain_apply_many(const WarpChain *chain, bool turbulence, Vec3 *p, int n)
 {
     for (uint32_t k = 0; k < chain->n; k++) {
         const Warp *w = &chain->warp[k];

@@ -37,7 +37,7 @@ static double slope_height(const BlendMap *map, double v)
 
 static double height(const Normal *normal, Vec3 q, const TextureContext *at)
 {
-    double v = pattern_value(normal->pattern, q, at);
+    double v = pattern_value_at(normal->pattern, q, at);
     return normal->map.kind == MAP_SLOPE && normal->map.n > 0 ? slope_height(&normal->map, v) : v;
 }
 
@@ -149,7 +149,7 @@ static Vec3 perturb(const Normal *normal, const Affine *place, Vec3 p, Vec3 n, b
 
 static Vec3 by_normal_map(const Normal *normal, Vec3 q, Vec3 n, bool keep_length, const TextureContext *at)
 {
-    MapSpot spot = map_find(normal->map.entry, normal->map.n, pattern_value(normal->pattern, q, at));
+    MapSpot spot = map_find(normal->map.entry, normal->map.n, pattern_value_at(normal->pattern, q, at));
     Vec3 to = perturb(spot.to->normal, NULL, q, n, keep_length, at);
     if (spot.from == NULL)
         return to;

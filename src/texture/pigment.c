@@ -8,13 +8,16 @@
 #include "texture/sample.h"
 #include "texture/texture.h"
 
+/* Kept apart, so that the plain ways need not make room for what the others do. */
+#define ALONE __attribute__((noinline))
+
 /* POV: below this, filter and transmit count as none. */
 static const float CLEAR = 1e-10f;
 
 static const MapEntry grey_map[] = { { .key = 0, .colour = { 0, 0, 0, 0, 0 } }, { .key = 1, .colour = { 1, 1, 1, 0, 0 } } };
 
-/* The colours of a pattern without a map. */
-static BlendMap map_of(const Pigment *pigment)
+/* That of a pattern without a map too. */
+static inline BlendMap map_of(const Pigment *pigment)
 {
     if (pigment->map.n > 0)
         return pigment->map;
@@ -30,20 +33,34 @@ static Colour entry_colour(const BlendMap *map, const MapEntry *entry, Vec3 p, c
     return map->kind == MAP_COLOUR ? entry->colour : pigment_colour(entry->pigment, p, at, NULL);
 }
 
-static Colour patterned(const Pigment *pigment, Vec3 p, const TextureContext *at)
+ALONE static Colour in_pigment_map(const BlendMap *map, double v, Vec3 p, const TextureContext *at)
 {
-    Vec3 q = pattern_point(pigment->pattern, p);
-    BlendMap map = map_of(pigment);
-    MapSpot spot = map_find(map.entry, map.n, pattern_value(pigment->pattern, q, at));
-    Colour to = entry_colour(&map, spot.to, q, at);
+    MapSpot spot = map_find(map->entry, map->n, v);
+    Colour to = pigment_colour(spot.to->pigment, p, at, NULL);
     if (spot.from == NULL)
         return to;
-    return colour_lerp(entry_colour(&map, spot.from, q, at), to, (float)spot.t);
+    return colour_lerp(pigment_colour(spot.from->pigment, p, at, NULL), to, (float)spot.t);
 }
 
-static Colour average(const Pigment *pigment, Vec3 p, const TextureContext *at)
+static Colour in_colour_map(const BlendMap *map, double v)
 {
-    Vec3 q = pigment->pattern != NULL ? pattern_point(pigment->pattern, p) : p;
+    MapSpot spot = map_find(map->entry, map->n, v);
+    if (spot.from == NULL)
+        return spot.to->colour;
+    return colour_lerp(spot.from->colour, spot.to->colour, (float)spot.t);
+}
+
+Colour pigment_patterned(const Pigment *pigment, const Vec3 *p, const TextureContext *at)
+{
+    PatternPoint point = { pattern_point(pigment->pattern, *p), pigment->pattern, at };
+    BlendMap map = map_of(pigment);
+    double v = pattern_value(&point);
+    return map.kind == MAP_COLOUR ? in_colour_map(&map, v) : in_pigment_map(&map, v, point.p, at);
+}
+
+ALONE static Colour average(const Pigment *pigment, const Vec3 *p, const TextureContext *at)
+{
+    Vec3 q = pigment->pattern != NULL ? pattern_point(pigment->pattern, *p) : *p;
     Colour sum = { 0 };
     for (uint32_t i = 0; i < pigment->map.n; i++) {
         const MapEntry *e = &pigment->map.entry[i];
@@ -53,10 +70,10 @@ static Colour average(const Pigment *pigment, Vec3 p, const TextureContext *at)
     return total != 0 ? colour_scaled(sum, (float)(1 / total)) : sum;
 }
 
-static Colour image(const Pigment *pigment, Vec3 p, bool *found)
+ALONE static Colour image(const Pigment *pigment, const Vec3 *p, bool *found)
 {
     ImageSpot spot;
-    Vec3 q = pigment->pattern != NULL ? pattern_point(pigment->pattern, p) : p;
+    Vec3 q = pigment->pattern != NULL ? pattern_point(pigment->pattern, *p) : *p;
     if (image_spot(pigment->image, q, &spot))
         return image_sample(pigment->image, spot);
     if (found != NULL)
@@ -74,9 +91,9 @@ Colour pigment_colour(const Pigment *pigment, Vec3 p, const TextureContext *at, 
         return *pigment->quick;
     switch (pigment->kind) {
     case PIGMENT_PLAIN: return pigment->colour;
-    case PIGMENT_PATTERN: return patterned(pigment, p, at);
-    case PIGMENT_AVERAGE: return average(pigment, p, at);
-    case PIGMENT_IMAGE: return image(pigment, p, found);
+    case PIGMENT_PATTERN: return pigment_patterned(pigment, &p, at);
+    case PIGMENT_AVERAGE: return average(pigment, &p, at);
+    case PIGMENT_IMAGE: return image(pigment, &p, found);
     case PIGMENT_UV: return pigment_colour(pigment->map.entry[0].pigment, vec3(at->uv.u, at->uv.v, 0), at, found);
     }
     return pigment->colour;

@@ -28,7 +28,7 @@ static void resolve(Walk *w, const Texture *t, const Affine *place, Vec3 p, doub
 
 static void patterned(Walk *w, const Texture *t, Vec3 q, double weight, bool keep_length)
 {
-    MapSpot spot = map_find(t->map.entry, t->map.n, pattern_value(t->pattern, q, w->at));
+    MapSpot spot = map_find(t->map.entry, t->map.n, pattern_value_at(t->pattern, q, w->at));
     resolve(w, spot.to->texture, NULL, q, weight * spot.t, keep_length);
     if (spot.from != NULL)
         resolve(w, spot.from->texture, NULL, q, weight * (1 - spot.t), keep_length);
@@ -102,25 +102,16 @@ static void resolve(Walk *w, const Texture *t, const Affine *place, Vec3 p, doub
         w->top = frame.outer;
 }
 
-void texture_resolve(const PlacedTexture *placed, Vec3 p, const TextureContext *at, TextureVisit *visit, void *user)
+/* p went through the place already. */
+void texture_resolve_map(const PlacedTexture *placed, const Vec3 *p, const TextureContext *at, TextureVisit *visit, void *user)
 {
-    const Affine *place = placed->place;
-    if (place != NULL && place->identity)
-        place = NULL;
-    if (place != NULL)
-        p = affine_point_back(place, p);
-    if (placed->texture->kind == TEXTURE_PLAIN) {
-        TextureLeaf leaf = { placed->texture, p, 1, place, NULL, false };
-        visit(user, &leaf);
-        return;
-    }
     Walk w;                                    /* only the frames in use are written */
     w.at = at;
     w.visit = visit;
     w.user = user;
     w.top = NULL;
     w.n_frames = 0;
-    resolve(&w, placed->texture, place, p, 1, false);
+    resolve(&w, placed->texture, placed->place, *p, 1, false);
 }
 
 bool texture_is_flat(const Texture *texture)

@@ -15,6 +15,9 @@ Colour pigment_colour(const Pigment *pigment, Vec3 p, const TextureContext *at, 
 /* The same for n <= PATTERN_MANY points where there is no surface, as functions ask them. Same bits. */
 void pigment_colours(const Pigment *pigment, const Vec3 *p, Colour *out, int n);
 
+/* The same of PIGMENT_PATTERN alone, without the quick colour. */
+Colour pigment_patterned(const Pigment *pigment, const Vec3 *p, const TextureContext *at);
+
 /* n perturbed; its length says nothing unless the caller normalises. */
 Vec3 normal_perturb(const Normal *normal, Vec3 p, Vec3 n, const TextureContext *at);
 
@@ -38,8 +41,20 @@ typedef struct TextureLeaf {
 /* Called once or more; the leaf lives until it returns. */
 typedef void TextureVisit(void *user, const TextureLeaf *leaf);
 
+void texture_resolve_map(const PlacedTexture *placed, const Vec3 *p, const TextureContext *at, TextureVisit *visit, void *user);
+
 /* p: scene space, or (u,v,0) for an object with uv_mapping. Leaves of weight 0 are not visited. */
-void texture_resolve(const PlacedTexture *placed, Vec3 p, const TextureContext *at, TextureVisit *visit, void *user);
+static inline void texture_resolve(const PlacedTexture *placed, Vec3 p, const TextureContext *at, TextureVisit *visit, void *user)
+{
+    if (placed->place != NULL)
+        p = affine_point_back(placed->place, p);
+    if (placed->texture->kind == TEXTURE_PLAIN) {
+        TextureLeaf leaf = { placed->texture, p, 1, placed->place, NULL, false };
+        visit(user, &leaf);
+    } else {
+        texture_resolve_map(placed, &p, at, visit, user);
+    }
+}
 
 /* Of one layer of a leaf. The normal: n is the unit surface normal facing the ray; the result may point away from the viewer, and
  * is of unit length but for textures with no_bump_scale round the leaf; at->normal is set to what slope and aoi of the layer's pigment see, so ask for the normal first. A layer without a
@@ -53,8 +68,11 @@ static inline Vec3 texture_layer_normal(const TextureLeaf *leaf, const Texture *
 static inline Colour texture_layer_colour(const TextureLeaf *leaf, const Texture *layer, const TextureContext *at, bool *found)
 {
     const Pigment *pigment = layer->pigment;
-    bool plain = pigment->kind == PIGMENT_PLAIN && pigment->quick == NULL;
-    return plain ? pigment->colour : pigment_colour(pigment, leaf->p, at, found);
+    if (pigment->quick == NULL && pigment->kind == PIGMENT_PLAIN)      /* most are of these two kinds */
+        return pigment->colour;
+    if (pigment->quick == NULL && pigment->kind == PIGMENT_PATTERN)
+        return pigment_patterned(pigment, &leaf->p, at);
+    return pigment_colour(pigment, leaf->p, at, found);
 }
 
 /* Is the texture the same everywhere, so that nobody need ask where? One leaf then says all of it. */

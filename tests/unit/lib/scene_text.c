@@ -26,7 +26,7 @@ static Colour host_pigment(void *user, const Pigment *pigment, Vec3 p)
 static double host_pattern(void *user, const Pattern *pattern, Vec3 p)
 {
     (void)user;
-    return pattern_value(pattern, p, NULL);
+    return pattern_value_at(pattern, p, NULL);
 }
 
 static void host_pigments(void *user, const Pigment *pigment, Vec3 *p, Colour *out, int n)
