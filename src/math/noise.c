@@ -154,6 +154,12 @@ void noise_vector_octaves(Vec3 p, double first, double step, int n, Vec3 *out)
     kernel->vector_octaves(&p, first, step, n, out);
 }
 
+double noise_ridges(int generator, const Vec3 *p)
+{
+    prepare(generator);
+    return kernel->ridges(generator, p);
+}
+
 double noise_turbulence(int generator, Vec3 p, int octaves, double omega, double lambda)
 {
     prepare(generator);

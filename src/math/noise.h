@@ -17,6 +17,9 @@ Vec3 noise_vector(Vec3 p);
 void noise_octaves(int generator, Vec3 p, double first, double step, int n, double *out);
 void noise_vector_octaves(Vec3 p, double first, double step, int n, Vec3 *out);
 
+/* Sum over six octaves from p * 4 on, each counting half of the one before, of |0.5 - noise|; generators 2 and 3: doubled, at most 0.5. */
+double noise_ridges(int generator, const Vec3 *p);
+
 /* U(p) and V(p) of section 4; octaves 1..10. */
 double noise_turbulence(int generator, Vec3 p, int octaves, double omega, double lambda);
 Vec3 noise_vector_turbulence(Vec3 p, int octaves, double omega, double lambda);

@@ -23,6 +23,7 @@ typedef struct NoiseKernel {
     Vec3 (*vector)(const Vec3 *p);
     void (*octaves)(int generator, const Vec3 *p, double first, double step, int n, double *out);
     void (*vector_octaves)(const Vec3 *p, double first, double step, int n, Vec3 *out);
+    double (*ridges)(int generator, const Vec3 *p);
     double (*turbulence)(int generator, const Vec3 *p, int octaves, double omega, double lambda);
     Vec3 (*vector_turbulence)(const Vec3 *p, int octaves, double omega, double lambda);
 } NoiseKernel;

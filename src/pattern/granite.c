@@ -5,16 +5,8 @@
 
 static double granite(const void *params, const PatternPoint *at)
 {
-    enum { N = 6 };
     (void)params;
-    int generator = at->pattern->noise_generator;
-    double noise[N], sum = 0, weight = 1;
-    noise_octaves(generator, at->p, 4, 2, N, noise);
-    for (int i = 0; i < N; i++, weight *= 0.5) {
-        double v = fabs(0.5 - noise[i]);       /* doubled, it is |1 - 2 noise| to the bit */
-        sum += weight * (generator < 2 ? v : v < 0.25 ? 2 * v : 0.5);
-    }
-    return sum;
+    return noise_ridges(at->pattern->noise_generator, &at->p);        /* doubled, it is |1 - 2 noise| to the bit */
 }
 
 enum { WRINKLES = 10 };
