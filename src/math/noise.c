@@ -171,6 +171,14 @@ Vec3 noise_vector_turbulence(Vec3 p, int octaves, double omega, double lambda)
     return kernel->vector_turbulence(&p, octaves, omega, lambda);
 }
 
+bool noise_two_nearest(const NoiseCube *cube, const Vec3 *p, double square[2])
+{
+    if (kernel->two_nearest == NULL)
+        return false;
+    kernel->two_nearest(cube, p, square);
+    return true;
+}
+
 unsigned noise_cell_row(long long a, long long b)
 {
     return noise_tables.hash[noise_tables.hash[a & 4095] ^ (unsigned)(b & 4095)];

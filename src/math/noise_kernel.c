@@ -335,7 +335,55 @@ static Vec3 vector_turbulence(const Vec3 *p, int n, double omega, double lambda)
     return sum;
 }
 
+/* ---- random points ---- */
+
+#ifdef __AVX2__
+
+/* Row by row along z, whose three points are lanes; the fourth is infinitely far. No point is passed over, and nothing branches. */
+static void two_nearest(const NoiseCube *cube, const Vec3 *p, double square[2])
+{
+    const uint16_t *h = noise_tables.hash;
+    const double *random = noise_tables.random;
+    unsigned before = (cube->z - 1) & 4095, at = cube->z & 4095, behind = (cube->z + 1) & 4095;
+    Quad px = quad(p->x), py = quad(p->y), pz = quad(p->z);
+    Quad z = { cube->low.z - 1, cube->low.z, cube->low.z + 1, INFINITY };
+    Quad first = quad(INFINITY), second = first;
+    for (int i = -1; i <= 1; i++) {
+        unsigned slice = h[(cube->x + i) & 4095];
+        Quad x = quad(cube->low.x + i);
+        for (int j = -1; j <= 1; j++) {
+            unsigned row = h[slice ^ ((cube->y + j) & 4095)];
+            Quad y = quad(cube->low.y + j);
+            Quad a = load(random + h[row ^ before]), b = load(random + h[row ^ at]), c = load(random + h[row ^ behind]);
+            Quad even = __builtin_shufflevector(a, b, 0, 4, 2, 6), odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+            Quad dx = px - (x + __builtin_shufflevector(even, c, 0, 1, 4, 5));
+            Quad dy = py - (y + __builtin_shufflevector(odd, c, 0, 1, 5, 5));
+            Quad dz = pz - (z + __builtin_shufflevector(even, c, 2, 3, 6, 7));
+            Quad s = dx * dx + dy * dy + dz * dz;
+            second = _mm256_min_pd(second, _mm256_max_pd(first, s));
+            first = _mm256_min_pd(first, s);
+        }
+    }
+    double least = first[0], next = second[0];
+    for (int k = 1; k < 3; k++) {
+        double a = first[k], b = second[k], more = least > a ? least : a;
+        least = least < a ? least : a;
+        next = next < b ? next : b;
+        next = next < more ? next : more;
+    }
+    square[0] = least;
+    square[1] = next;
+}
+
+#define TWO_NEAREST two_nearest
+
+#else
+
+#define TWO_NEAREST 0                          /* by twos it is faster to pass over far points */
+
+#endif
+
 const NoiseKernel ISA_NAME(noise_kernel)[1] = { {
     .value = value, .vector = vector, .octaves = octaves, .vector_octaves = vector_octaves,
-    .ridges = ridges, .turbulence = turbulence, .vector_turbulence = vector_turbulence,
+    .two_nearest = TWO_NEAREST, .ridges = ridges, .turbulence = turbulence, .vector_turbulence = vector_turbulence,
 } };

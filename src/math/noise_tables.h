@@ -12,7 +12,7 @@ typedef struct NoiseTables {
     uint8_t corner[8192];                      /* H mod 256: the last step, which picks from R */
     double gradient3[4098][4];                 /* G of generator 3, fourth component 0 */
     uint16_t permutation3[4098];               /* P */
-    double random[NOISE_CELLS + 2];            /* the part of T that hashes reach */
+    double random[NOISE_CELLS + 3];            /* the part of T that hashes reach, and one more for loads of four */
 } NoiseTables;
 
 extern NoiseTables noise_tables;               /* written once: before main, or at the first use of generator 3 */
@@ -23,6 +23,7 @@ typedef struct NoiseKernel {
     Vec3 (*vector)(const Vec3 *p);
     void (*octaves)(int generator, const Vec3 *p, double first, double step, int n, double *out);
     void (*vector_octaves)(const Vec3 *p, double first, double step, int n, Vec3 *out);
+    void (*two_nearest)(const NoiseCube *cube, const Vec3 *p, double square[2]);  /* may be NULL */
     double (*ridges)(int generator, const Vec3 *p);
     double (*turbulence)(int generator, const Vec3 *p, int octaves, double omega, double lambda);
     Vec3 (*vector_turbulence)(const Vec3 *p, int octaves, double omega, double lambda);

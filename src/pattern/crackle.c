@@ -35,27 +35,26 @@ static bool item(Parser *p, void *params)
     return true;
 }
 
-typedef struct Grid { long long x, y, z; Vec3 low; } Grid;
-
-static inline Grid grid_of(Vec3 p)
+static inline NoiseCube cube_of(Vec3 p)
 {
-    Grid g = { .low = vec3(floor(p.x - PATTERN_TINY), floor(p.y - PATTERN_TINY), floor(p.z - PATTERN_TINY)) };
-    if (max_abs(g.low) < 9e15) {               /* beyond, cubes cannot be told apart anyway */
-        g.x = (long long)g.low.x;
-        g.y = (long long)g.low.y;
-        g.z = (long long)g.low.z;
-    }
-    return g;
+    Vec3 q = vec3(p.x - PATTERN_TINY, p.y - PATTERN_TINY, p.z - PATTERN_TINY);
+    if (!(max_abs(q) < 9e15))                  /* beyond, cubes cannot be told apart anyway */
+        return (NoiseCube){ 0, 0, 0, vec3(floor(q.x), floor(q.y), floor(q.z)) };
+    long long x = (long long)q.x, y = (long long)q.y, z = (long long)q.z;
+    x -= q.x < (double)x;
+    y -= q.y < (double)y;
+    z -= q.z < (double)z;
+    return (NoiseCube){ x, y, z, vec3((double)x, (double)y, (double)z) };
 }
 
 /* Of the cube (x, y, z) steps from the first; row: the hash of its first two coordinates. */
-static inline Vec3 point_in(const Grid *g, unsigned row, int x, int y, int z)
+static inline Vec3 point_in(const NoiseCube *g, unsigned row, int x, int y, int z)
 {
     const double *t = noise_tables.random + noise_tables.hash[row ^ (unsigned)((g->z + z) & 4095)];
     return vec3(g->low.x + x + t[0], g->low.y + y + t[1], g->low.z + z + t[2]);
 }
 
-static inline unsigned row_of(const Grid *g, int x, int y)
+static inline unsigned row_of(const NoiseCube *g, int x, int y)
 {
     return noise_tables.hash[noise_tables.hash[(g->x + x) & 4095] ^ (unsigned)((g->y + y) & 4095)];
 }
@@ -88,71 +87,85 @@ typedef struct Near {
     Vec3 nearest;
 } Near;
 
-static inline void offer(Near *near, double s, Vec3 q)
+/* Sums after the one that is wanted last need not be right. */
+INLINE void offer(Near *near, double s, Vec3 q, int last)
 {
     if (s < near->s[0]) {
-        *near = (Near){ { s, near->s[0], near->s[1] }, q };
+        near->s[2] = near->s[1];
+        near->s[1] = near->s[0];
+        near->s[0] = s;
+        near->nearest = q;
     } else if (s < near->s[1]) {
         near->s[2] = near->s[1];
         near->s[1] = s;
-    } else if (s < near->s[2]) {
+    } else if (last == 2 && s < near->s[2]) {
         near->s[2] = s;
     }
 }
 
 /* The nine cubes two steps away along one axis, to one side. */
-INLINE void offer_face(Near *near, Vec3 p, const Grid *g, int axis, int step, double metric)
+INLINE void offer_face(Near *near, Vec3 p, const NoiseCube *g, int axis, int step, double metric, int last)
 {
     for (int i = -1; i <= 1; i++)
         for (int j = -1; j <= 1; j++) {
             int x = axis == 0 ? step : i, y = axis == 1 ? step : axis == 0 ? i : j, z = axis == 2 ? step : j;
             Vec3 q = point_in(g, row_of(g, x, y), x, y, z);
-            offer(near, measure(p, q, metric, near->s[2]), q);
+            offer(near, measure(p, q, metric, near->s[last]), q, last);
         }
 }
 
-/* Of the 54 cubes two steps away along one axis those that may matter. */
-INLINE void offer_beyond(Near *near, Vec3 p, const Grid *g, double metric, int last)
+/* Of the 54 cubes two steps away along one axis those that may matter. Seldom any. */
+static __attribute__((noinline)) void offer_beyond(Near *near, Vec3 p, const NoiseCube *g, double metric, int last)
 {
     Vec3 f = sub(p, g->low);
     for (int axis = 0; axis < 3; axis++)
         for (int step = -2; step <= 2; step += 4) {
             double x = vec3_at(f, axis), gap = step < 0 ? 1 + x : 2 - x;
             if (part((gap > 1 ? gap : 1) * (1 - 1e-9), metric) <= near->s[last])
-                offer_face(near, p, g, axis, step, metric);
+                offer_face(near, p, g, axis, step, metric, last);
         }
 }
 
-/* The steps along one axis, near cubes first, and the least part of each in the distance. f: from the low corner of the cube. The
- * slack covers the rounding of the points' coordinates. */
-typedef struct Axis { int step[3]; double gap[3]; } Axis;
+/* The three cubes along one axis, near ones first. */
+typedef struct Axis {
+    double gap[3];                             /* the least part of each in the distance */
+    double low[3];                             /* the low side of each */
+    unsigned cell[3];                          /* the number of each, for the hash */
+} Axis;
 
-INLINE Axis axis_of(double f, double metric)
+/* x: from the low side of the point's own cube. The slack covers the rounding of the points' coordinates. */
+INLINE Axis axis_of(double x, double low, long long cell, double metric)
 {
-    int side = f > 0.5 ? 1 : -1;
-    double low = (f > 0 ? f : 0) * (1 - 1e-9), high = (f < 1 ? 1 - f : 0) * (1 - 1e-9);
-    return (Axis){ { 0, side, -side }, { 0, part(side > 0 ? high : low, metric), part(side > 0 ? low : high, metric) } };
+    double before = (x > 0 ? x : 0) * (1 - 1e-9), behind = (x < 1 ? 1 - x : 0) * (1 - 1e-9);
+    int side = x > 0.5 ? 1 : -1;
+    return (Axis){ { 0, part(side > 0 ? behind : before, metric), part(side > 0 ? before : behind, metric) },
+                   { low, low + side, low - side },
+                   { cell & 4095, (cell + side) & 4095, (cell - side) & 4095 } };
 }
 
 /* `last`: which of the three smallest is wanted last. What lies farther away than that one so far is passed over; metric > 0. */
 INLINE Near near_of(Vec3 p, double metric, int last)
 {
-    Grid g = grid_of(p);
-    Axis ax = axis_of(p.x - g.low.x, metric), ay = axis_of(p.y - g.low.y, metric), az = axis_of(p.z - g.low.z, metric);
+    const uint16_t *hash = noise_tables.hash;
+    NoiseCube g = cube_of(p);
+    Axis ax = axis_of(p.x - g.low.x, g.low.x, g.x, metric), ay = axis_of(p.y - g.low.y, g.low.y, g.y, metric),
+         az = axis_of(p.z - g.low.z, g.low.z, g.z, metric);
     Near near = { .s = { INFINITY, INFINITY, INFINITY } };
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3 && ax.gap[i] <= near.s[last]; i++) {
+        unsigned slice = hash[ax.cell[i]];
         for (int j = 0; j < 3; j++) {
             double gap = ax.gap[i] + ay.gap[j];
             if (gap > near.s[last])
                 break;
-            unsigned row = row_of(&g, ax.step[i], ay.step[j]);
+            unsigned row = hash[slice ^ ay.cell[j]];
             for (int k = 0; k < 3 && gap + az.gap[k] <= near.s[last]; k++) {
-                Vec3 q = point_in(&g, row, ax.step[i], ay.step[j], az.step[k]);
-                offer(&near, measure(p, q, metric, near.s[2]), q);
+                const double *t = noise_tables.random + hash[row ^ az.cell[k]];
+                Vec3 q = vec3(ax.low[i] + t[0], ay.low[j] + t[1], az.low[k] + t[2]);
+                offer(&near, measure(p, q, metric, near.s[last]), q, last);
             }
         }
+    }
     if (near.s[last] > 1 - 1e-9)
-        if (near.s[last] > 1 - 1e-9)
         offer_beyond(&near, p, &g, metric, last);
     return near;
 }
@@ -160,24 +173,34 @@ INLINE Near near_of(Vec3 p, double metric, int last)
 /* Metrics that are not positive turn near and far round: all 81 cubes count. */
 static Near near_of_all(Vec3 p, double metric)
 {
-    Grid g = grid_of(p);
+    NoiseCube g = cube_of(p);
     Near near = { .s = { INFINITY, INFINITY, INFINITY } };
     for (int i = 0; i < 27; i++) {
         int x = i % 3 - 1, y = i / 3 % 3 - 1, z = i / 9 - 1;
         Vec3 q = point_in(&g, row_of(&g, x, y), x, y, z);
-        offer(&near, measure(p, q, metric, near.s[2]), q);
+        offer(&near, measure(p, q, metric, near.s[2]), q, 2);
     }
     for (int axis = 0; axis < 3; axis++) {
-        offer_face(&near, p, &g, axis, -2, metric);
-        offer_face(&near, p, &g, axis, 2, metric);
+        offer_face(&near, p, &g, axis, -2, metric, 2);
+        offer_face(&near, p, &g, axis, 2, metric, 2);
     }
     return near;
+}
+
+/* The most frequent case has no use for anything but the two least sums. Not so far out that the slack of axes says less than the
+ * points' coordinates, so that both ways give the same; and not where cubes farther away may count. */
+static Near nearest_two(Vec3 p)
+{
+    NoiseCube cube = cube_of(p);
+    Near near;
+    bool known = max_abs(cube.low) < 1e6 && noise_two_nearest(&cube, &p, near.s) && near.s[1] <= 1 - 1e-9;
+    return known ? near : near_of(p, 2, 1);
 }
 
 static Near nearest(Vec3 p, double metric, int last)
 {
     if (metric == 2)
-        return last < 2 ? near_of(p, 2, 1) : near_of(p, 2, 2);
+        return near_of(p, 2, last);
     return metric > 0 ? near_of(p, metric, last) : near_of_all(p, metric);
 }
 
@@ -189,7 +212,8 @@ static double distance(double s, double metric)
 static double value(const void *params, const PatternPoint *at)
 {
     const Crackle *c = params;
-    Near near = nearest(at->p, c->metric, c->form.z != 0 ? 2 : 1);
+    bool two = c->metric == 2 && c->form.z == 0 && !c->solid;
+    Near near = two ? nearest_two(at->p) : nearest(at->p, c->metric, c->form.z != 0 ? 2 : 1);
     if (c->solid)
         return noise_value(at->pattern->noise_generator, near.nearest);
     double extra = 0, v = 0;

@@ -97,6 +97,9 @@ static void octaves_and_instruction_sets_give_the_same_bits(void **state)
                 assert_memory_equal(&a, &many[k], sizeof a);
             }
         }
+        a = base->ridges(1 + i % 3, &p);
+        double b = best->ridges(1 + i % 3, &p);
+        assert_memory_equal(&a, &b, sizeof a);
         Vec3 v = base->vector_turbulence(&p, 6, 0.5, 2), w = best->vector_turbulence(&p, 6, 0.5, 2);
         assert_memory_equal(&v, &w, sizeof v);
         w = base->vector(&p);
@@ -106,6 +109,31 @@ static void octaves_and_instruction_sets_give_the_same_bits(void **state)
         }
         v = best->vector_turbulence(&p, 6, 0.5, 0.5);
         assert_memory_equal(&v, &w, sizeof v);
+    }
+}
+
+static void the_two_nearest_points_are_those_of_all_cubes_around(void **state)
+{
+    (void)state;
+    unsigned seed = 11;
+    for (int i = 0; i < 3000; i++) {
+        Vec3 p = random_point(&seed, 5000);
+        if (i % 3 == 0)
+            p.y = floor(p.y);
+        NoiseCube cube = { (long long)floor(p.x), (long long)floor(p.y), (long long)floor(p.z), { floor(p.x), floor(p.y), floor(p.z) } };
+        double least = INFINITY, next = INFINITY, got[2];
+        if (!noise_two_nearest(&cube, &p, got))
+            return;
+        for (int k = 0; k < 27; k++) {
+            int x = k % 3 - 1, y = k / 3 % 3 - 1, z = k / 9 - 1;
+            unsigned cell = noise_cell(cube.x + x, cube.y + y, cube.z + z);
+            Vec3 q = vec3(cube.low.x + x + noise_random(cell), cube.low.y + y + noise_random(cell + 1), cube.low.z + z + noise_random(cell + 2));
+            double s = length2(sub(p, q));
+            next = s < least ? least : s < next ? s : next;
+            least = s < least ? s : least;
+        }
+        assert_memory_equal(&got[0], &least, sizeof least);
+        assert_memory_equal(&got[1], &next, sizeof next);
     }
 }
 
@@ -145,6 +173,7 @@ int main(void)
         cmocka_unit_test(every_measured_noise_is_met),
         cmocka_unit_test(every_measured_vector_noise_and_turbulence_is_met),
         cmocka_unit_test(octaves_and_instruction_sets_give_the_same_bits),
+        cmocka_unit_test(the_two_nearest_points_are_those_of_all_cubes_around),
         cmocka_unit_test(noise_is_continuous_and_within_its_range),
         cmocka_unit_test(points_without_a_place_in_the_lattice_are_harmless),
     };
