@@ -97,7 +97,7 @@ static void octaves_and_instruction_sets_give_the_same_bits(void **state)
                 assert_memory_equal(&a, &many[k], sizeof a);
             }
         }
-        a = base->ridges(1 + i % 3, &p);
+        double a = base->ridges(1 + i % 3, &p);
         double b = best->ridges(1 + i % 3, &p);
         assert_memory_equal(&a, &b, sizeof a);
         Vec3 v = base->vector_turbulence(&p, 6, 0.5, 2), w = best->vector_turbulence(&p, 6, 0.5, 2);
