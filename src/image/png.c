@@ -183,16 +183,34 @@ static void write_header(png_structp png, png_infop info, const Codes *c)
     png_write_info(png, info);
 }
 
+/* Codes as the file has them. */
+static void narrow(const uint16_t *code, size_t n, int bits, unsigned char *out)
+{
+    typedef uint16_t Wide __attribute__((vector_size(16)));
+    typedef uint8_t Slim __attribute__((vector_size(8)));
+    size_t i = 0;
+    if (bits == 16) {
+        for (; i < n; i++) {
+            out[2 * i] = (unsigned char)(code[i] >> 8);
+            out[2 * i + 1] = (unsigned char)code[i];
+        }
+        return;
+    }
+    for (; i + 8 <= n; i += 8) {
+        Wide wide;
+        memcpy(&wide, code + i, sizeof wide);
+        Slim slim = __builtin_convertvector(wide, Slim);
+        memcpy(out + i, &slim, sizeof slim);
+    }
+    for (; i < n; i++)
+        out[i] = (unsigned char)code[i];
+}
+
 static void write_rows(png_structp png, const Codes *c, unsigned char *row)
 {
-    const uint16_t *code = c->code;
+    size_t samples = (size_t)c->width * (size_t)c->channels;
     for (int y = 0; y < c->height; y++) {
-        unsigned char *out = row;
-        for (int i = 0; i < c->width * c->channels; i++, code++) {
-            if (c->bits == 16)
-                *out++ = (unsigned char)(*code >> 8);
-            *out++ = (unsigned char)*code;
-        }
+        narrow(c->code + (size_t)y * samples, samples, c->bits, row);
         png_write_row(png, row);
     }
     png_write_end(png, NULL);
