@@ -231,15 +231,23 @@ static inline Pair values_of(int generator, Pair a, Pair b)
     return least((Pair)((Mask)v & (v > 0)), 1);
 }
 
+/* False: too far for any noise. */
+static inline bool spot_of(Spot *spot, Vec3 p)
+{
+    if (spots_set(spot, p, 1, 1, 1))
+        return true;
+    if (is_far(p))
+        return false;
+    spot_set(spot, p);
+    return true;
+}
+
 static inline double value_at(int generator, Vec3 p)
 {
-    if (is_far(p))
-        return 0.5;
-    if (generator == 3)
-        return clamp(0.5 * (1.59 * raw3(p) + 0.985));
     Spot spot;
-    spot_set(&spot, p);
-    return value_of(generator, spot_noise(&spot));
+    if (generator == 3)
+        return is_far(p) ? 0.5 : clamp(0.5 * (1.59 * raw3(p) + 0.985));
+    return spot_of(&spot, p) ? value_of(generator, spot_noise(&spot)) : 0.5;
 }
 
 static double value(int generator, const Vec3 *p)
@@ -301,11 +309,8 @@ static double turbulence(int generator, const Vec3 *p, int n, double omega, doub
 
 static inline Vec3 vector_at(Vec3 p)
 {
-    if (is_far(p))
-        return vec3(0, 0, 0);
     Spot spot;
-    spot_set(&spot, p);
-    return spot_vector(&spot);
+    return spot_of(&spot, p) ? spot_vector(&spot) : vec3(0, 0, 0);
 }
 
 static Vec3 vector(const Vec3 *p)
@@ -326,12 +331,12 @@ static void vector_octaves(const Vec3 *p, double first, double step, int n, Vec3
 
 static Vec3 vector_turbulence(const Vec3 *p, int n, double omega, double lambda)
 {
-    Vec3 v[MAX_OCTAVES];
-    vector_octaves(p, 1, lambda, n, v);
-    Vec3 sum = v[0];
-    double weight = omega;
-    for (int k = 1; k < n; k++, weight *= omega)
-        sum = add(sum, scaled(v[k], weight));
+    Spot spot[MAX_OCTAVES];
+    double weight = omega, scale = lambda;
+    bool near = spots_set(spot, *p, 1, lambda, n);
+    Vec3 sum = near ? spot_vector(&spot[0]) : vector_at(*p);
+    for (int k = 1; k < n; k++, weight *= omega, scale *= lambda)
+        sum = add(sum, scaled(near ? spot_vector(&spot[k]) : vector_at(scaled(*p, scale)), weight));
     return sum;
 }
 
