@@ -100,8 +100,9 @@ static void channels_of(const Quantising *q, const float *rgba, double out[4])
 
 enum { INFINITE = 0x7f800000 };                /* the bits of it */
 
-/* Cells are those of floats with equal upper bits, 64 to the octave from 2^-14 to 1. */
-enum { CELL_BITS = 17, CELL_FIRST = (127 - 14) << 6, CELLS = 14 << 6 };
+/* Cells are those of floats with equal upper bits, 128 to the octave from 2^-14 to 1: for eight bits and the usual curves, at most one
+ * code begins within a cell. */
+enum { CELL_BITS = 16, CELL_FIRST = (127 - 14) << 7, CELLS = 14 << 7 };
 
 typedef struct Steps {
     float at[257];                             /* code k for at[k] <= v < at[k + 1] */
@@ -153,7 +154,8 @@ static uint16_t step_of(const Steps *s, float v)
 {
     uint32_t cell = (float_bits(v) >> CELL_BITS) - CELL_FIRST;
     int k = cell < CELLS ? s->from[cell] : v >= 1 ? s->from[CELLS] : 0;
-    while (v >= s->at[k + 1])                  /* NaN fails every comparison: 0 */
+    k += v >= s->at[k + 1];                    /* a number, not a branch that none can guess; NaN fails every comparison: 0 */
+    while (v >= s->at[k + 1])
         k++;
     return (uint16_t)k;
 }
