@@ -33,29 +33,24 @@ static Colour entry_colour(const BlendMap *map, const MapEntry *entry, Vec3 p, c
     return map->kind == MAP_COLOUR ? entry->colour : pigment_colour(entry->pigment, p, at, NULL);
 }
 
-ALONE static Colour in_pigment_map(const BlendMap *map, double v, Vec3 p, const TextureContext *at)
+ALONE static Colour in_pigment_map(const BlendMap *map, double v, const PatternPoint *at)
 {
     MapSpot spot = map_find(map->entry, map->n, v);
-    Colour to = pigment_colour(spot.to->pigment, p, at, NULL);
+    Colour to = pigment_colour(spot.to->pigment, at->p, at->context, NULL);
     if (spot.from == NULL)
         return to;
-    return colour_lerp(pigment_colour(spot.from->pigment, p, at, NULL), to, (float)spot.t);
-}
-
-static Colour in_colour_map(const BlendMap *map, double v)
-{
-    MapSpot spot = map_find(map->entry, map->n, v);
-    if (spot.from == NULL)
-        return spot.to->colour;
-    return colour_lerp(spot.from->colour, spot.to->colour, (float)spot.t);
+    return colour_lerp(pigment_colour(spot.from->pigment, at->p, at->context, NULL), to, (float)spot.t);
 }
 
 Colour pigment_patterned(const Pigment *pigment, const Vec3 *p, const TextureContext *at)
 {
     PatternPoint point = { pattern_point(pigment->pattern, *p), pigment->pattern, at };
-    BlendMap map = map_of(pigment);
     double v = pattern_value(&point);
-    return map.kind == MAP_COLOUR ? in_colour_map(&map, v) : in_pigment_map(&map, v, point.p, at);
+    BlendMap map = map_of(pigment);
+    if (map.kind != MAP_COLOUR)
+        return in_pigment_map(&pigment->map, v, &point);
+    MapSpot spot = map_find(map.entry, map.n, v);
+    return spot.from == NULL ? spot.to->colour : colour_lerp(spot.from->colour, spot.to->colour, (float)spot.t);
 }
 
 ALONE static Colour average(const Pigment *pigment, const Vec3 *p, const TextureContext *at)
