@@ -187,16 +187,6 @@ static Near near_of_all(Vec3 p, double metric)
     return near;
 }
 
-/* The most frequent case has no use for anything but the two least sums. Not so far out that the slack of axes says less than the
- * points' coordinates, so that both ways give the same; and not where cubes farther away may count. */
-static Near nearest_two(Vec3 p)
-{
-    NoiseCube cube = cube_of(p);
-    Near near;
-    bool known = max_abs(cube.low) < 1e6 && noise_two_nearest(&cube, &p, near.s) && near.s[1] <= 1 - 1e-9;
-    return known ? near : near_of(p, 2, 1);
-}
-
 static Near nearest(Vec3 p, double metric, int last)
 {
     if (metric == 2)
@@ -209,11 +199,9 @@ static double distance(double s, double metric)
     return metric == 2 ? sqrt(s) : metric == 1 ? s : pow(s, 1 / metric);
 }
 
-static double value(const void *params, const PatternPoint *at)
+static double of_all(const Crackle *c, const PatternPoint *at)
 {
-    const Crackle *c = params;
-    bool two = c->metric == 2 && c->form.z == 0 && !c->solid;
-    Near near = two ? nearest_two(at->p) : nearest(at->p, c->metric, c->form.z != 0 ? 2 : 1);
+    Near near = nearest(at->p, c->metric, c->form.z != 0 ? 2 : 1);
     if (c->solid)
         return noise_value(at->pattern->noise_generator, near.nearest);
     double extra = 0, v = 0;
@@ -223,6 +211,24 @@ static double value(const void *params, const PatternPoint *at)
     for (int i = 0; i < 3; i++)
         if (form[i] != 0)
             v += form[i] * distance(near.s[i] + extra, c->metric);
+    return wave_clamp(v);
+}
+
+/* The most frequent case has no use for anything but the two least sums. Not so far out that the slack of axes says less than the
+ * points' coordinates, so that both ways give the same; and not where cubes farther away may count. */
+static double value(const void *params, const PatternPoint *at)
+{
+    const Crackle *c = params;
+    double s[2], extra = c->offset * c->offset, v = 0;
+    if (c->metric != 2 || c->form.z != 0 || c->solid)
+        return of_all(c, at);
+    NoiseCube cube = cube_of(at->p);
+    if (!(max_abs(cube.low) < 1e6) || !noise_two_nearest(&cube, &at->p, s) || s[1] > 1 - 1e-9)
+        return of_all(c, at);
+    if (c->form.x != 0)
+        v += c->form.x * sqrt(s[0] + extra);
+    if (c->form.y != 0)
+        v += c->form.y * sqrt(s[1] + extra);
     return wave_clamp(v);
 }
 
