@@ -4,6 +4,10 @@
 #include "texture/texture.h"
 #include "world/shaft.h"
 
+/* Kept apart, so that plain rays need not make room for what others do. */
+#define ALONE __attribute__((noinline))
+#define INLINE inline __attribute__((always_inline))
+
 static const Colour NOTHING = { 0, 0, 0, 0, 1 };       /* where no ray goes */
 
 static const Bounds NOWHERE = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
@@ -94,7 +98,7 @@ static inline Colour shoot_along(Sampler *s, Vec3 from, Vec3 d, double reach)
     return tracer_camera_ray(s->tracer, o, d, reach, around);
 }
 
-static Colour shoot(Sampler *s, const CameraRay *ray, double reach)
+INLINE static Colour shoot(Sampler *s, const CameraRay *ray, double reach)
 {
     Vec3 d = normalized(ray->d);
     const Normal *normal = s->sampling->camera.def->normal;
@@ -146,7 +150,7 @@ static bool blur_ray(const Sampling *all, double x, double y, int seed, uint32_t
     return true;
 }
 
-static Colour blurred(Sampler *s, double x, double y)
+ALONE static Colour blurred(Sampler *s, double x, double y)
 {
     const Blur *blur = s->sampling->blur;
     int seed = (int)(313 * x + 11) + (int)(311 * y + 17);
@@ -174,7 +178,7 @@ static Colour blurred(Sampler *s, double x, double y)
 
 /* ---- mesh cameras ---- */
 
-static Colour through_mesh(Sampler *s, double x, double y)
+ALONE static Colour through_mesh(Sampler *s, double x, double y)
 {
     const MeshCamera *mesh = s->sampling->mesh;
     Colour sum = { 0, 0, 0, 0, 0 };
