@@ -1,4 +1,5 @@
 /* bmp.c - Windows bitmaps: 1, 4, 8 (also run-length coded), 24 and 32 bits read, 24 and 32 written. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "image/codec.h"
@@ -167,10 +168,24 @@ static void put32(FILE *to, uint32_t v)
         putc((int)(v >> (8 * i) & 255), to);
 }
 
-static bool write_image(FILE *to, const Codes *c, char error[IMAGE_ERROR])
+/* The bottom row comes first in the file, and the top one as codes. */
+static bool write_image(FILE *to, Codes *c, char error[IMAGE_ERROR])
 {
-    (void)error;
     uint32_t row = ((uint32_t)(c->width * c->channels) + 3) & ~3u, data = row * (uint32_t)c->height;
+    unsigned char *const rows = calloc((size_t)c->height, row);
+    if (rows == NULL)
+        return codec_fail(error, "not enough memory for the picture");
+    for (int y = c->height - 1; y >= 0; y--) {
+        const uint16_t *p = codes_next(c);
+        unsigned char *out = rows + (size_t)y * row;
+        for (int x = 0; x < c->width; x++, p += c->channels) {
+            *out++ = (unsigned char)p[2];
+            *out++ = (unsigned char)p[1];
+            *out++ = (unsigned char)p[0];
+            if (c->channels == 4)
+                *out++ = (unsigned char)p[3];
+        }
+    }
     fwrite("BM", 1, 2, to);
     put32(to, 54 + data);
     put32(to, 0);
@@ -181,18 +196,8 @@ static bool write_image(FILE *to, const Codes *c, char error[IMAGE_ERROR])
     put32(to, 1u | (uint32_t)(8 * c->channels) << 16);
     for (int i = 0; i < 6; i++)
         put32(to, i == 1 ? data : 0);
-    for (int y = c->height - 1; y >= 0; y--) {
-        const uint16_t *p = c->code + (size_t)y * (size_t)c->width * (size_t)c->channels;
-        for (int x = 0; x < c->width; x++, p += c->channels) {
-            putc(p[2], to);
-            putc(p[1], to);
-            putc(p[0], to);
-            if (c->channels == 4)
-                putc(p[3], to);
-        }
-        for (uint32_t i = (uint32_t)(c->width * c->channels); i < row; i++)
-            putc(0, to);
-    }
+    fwrite(rows, row, (size_t)c->height, to);
+    free(rows);
     return true;
 }
 

@@ -8,9 +8,14 @@
 typedef struct Codes {
     int width, height, channels;               /* 1 grey, 2 grey and alpha, 3 rgb, 4 rgba */
     int bits;                                  /* of the codes: 8 or 16 (PPM: 5..16) */
-    const uint16_t *code;                      /* top row first */
     const ImageWriting *how;
+    const float *rgba;                         /* where the next row comes from; codes_next() alone asks */
+    Quantiser *quantiser;
+    uint16_t *row;
 } Codes;
+
+/* width * channels codes of the next row, the top one first. They stay until the next call. */
+const uint16_t *codes_next(Codes *c);
 
 typedef struct ImageCodec {
     ImageFormat format;
@@ -18,7 +23,7 @@ typedef struct ImageCodec {
     /* Called twice: with pixels NULL to fill in width, height, channels, depth, max_value, indexed, the palette, has_alpha; then with room
      * for width * height * channels samples of `depth`. Frees what it took either way. False: `error` says why. */
     bool (*read)(Str bytes, Image *im, void *pixels, char error[IMAGE_ERROR]);
-    bool (*write)(FILE *to, const Codes *codes, char error[IMAGE_ERROR]);      /* NULL: read only */
+    bool (*write)(FILE *to, Codes *codes, char error[IMAGE_ERROR]);      /* NULL: read only */
 } ImageCodec;
 
 extern const ImageCodec codec_png, codec_jpeg, codec_gif, codec_pot, codec_tiff, codec_tga, codec_ppm, codec_bmp, codec_hdr;

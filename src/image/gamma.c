@@ -160,7 +160,7 @@ static uint16_t step_of(const Steps *s, float v)
     return (uint16_t)k;
 }
 
-static bool repeats(const float *rgba)         /* much of many pictures is of one colour */
+static inline bool repeats(const float *rgba)         /* much of many pictures is of one colour */
 {
     return memcmp(rgba, rgba - 4, 4 * sizeof *rgba) == 0;
 }
@@ -176,31 +176,36 @@ static void quantise_rgb(const float *rgba, size_t n_pixels, const Steps *s, uin
                 out[i] = step_of(s, rgba[i]);
 }
 
-static void quantise_plain(const float *rgba, size_t n_pixels, const Quantising *q, uint16_t *out)
-{
-    int n = quantise_channels(q), max = (1 << q->bits) - 1;
-    int n_colours = q->grey ? 1 : 3;
+typedef struct Carry { double c[4]; } Carry;   /* errors of one pixel's codes */
+
+struct Quantiser {
+    Quantising how;
+    int width, y;                              /* of the next row */
+    bool by_steps;
     Steps colour, alpha;
-    bool by_steps = q->bits <= 8 && n_pixels > 256;
-    if (by_steps) {
-        find_steps(q, false, max, &colour);
-        if (q->alpha)
-            find_steps(q, true, max, &alpha);
-    }
-    if (by_steps && n == 3) {
-        quantise_rgb(rgba, n_pixels, &colour, out);
+    Carry error;                               /* D1: of the pixel before */
+    Carry *this_row, *next_row;                /* D2, FS: each with a spare entry on either side */
+    Carry rows[];
+};
+
+static void plain_row(const Quantiser *state, const float *rgba, uint16_t *out)
+{
+    const Quantising *q = &state->how;
+    int n = quantise_channels(q), max = (1 << q->bits) - 1, n_colours = q->grey ? 1 : 3;
+    if (state->by_steps && n == 3) {
+        quantise_rgb(rgba, (size_t)state->width, &state->colour, out);
         return;
     }
-    for (size_t p = 0; p < n_pixels; p++, rgba += 4, out += n) {
-        if (p > 0 && repeats(rgba)) {
+    for (int x = 0; x < state->width; x++, rgba += 4, out += n) {
+        if (x > 0 && repeats(rgba)) {
             memcpy(out, out - n, (size_t)n * sizeof *out);
             continue;
         }
         double v[4];
         channels_of(q, rgba, v);
         for (int i = 0; i < n; i++)
-            out[i] = by_steps ? step_of(i < n_colours ? &colour : &alpha, (float)v[i])
-                              : code_of(encoded(q, i >= n_colours, (double)(float)v[i]), max);
+            out[i] = state->by_steps ? step_of(i < n_colours ? &state->colour : &state->alpha, (float)v[i])
+                                     : code_of(encoded(q, i >= n_colours, (double)(float)v[i]), max);
     }
 }
 
@@ -219,21 +224,19 @@ static double bayer(DitherKind kind, int x, int y)
     }
 }
 
-static void quantise_ordered(const float *rgba, int width, int height, const Quantising *q, uint16_t *out)
+static void ordered_row(const Quantiser *state, const float *rgba, uint16_t *out)
 {
+    const Quantising *q = &state->how;
     int n = quantise_channels(q), max = (1 << q->bits) - 1, n_colours = q->grey ? 1 : 3;
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++, rgba += 4) {
-            double v[4], offset = bayer(q->dither, x, y) / max;
-            channels_of(q, rgba, v);
-            for (int i = 0; i < n; i++)
-                *out++ = code_of(encoded(q, i >= n_colours, v[i]) + offset, max);
-        }
+    for (int x = 0; x < state->width; x++, rgba += 4) {
+        double v[4], offset = bayer(q->dither, x, state->y) / max;
+        channels_of(q, rgba, v);
+        for (int i = 0; i < n; i++)
+            *out++ = code_of(encoded(q, i >= n_colours, v[i]) + offset, max);
+    }
 }
 
 /* ---- error diffusion ---- */
-
-typedef struct Carry { double c[4]; } Carry;
 
 static void carry_add(Carry *to, const Carry *error, double share, int n)
 {
@@ -268,49 +271,85 @@ static void diffuse_pixel(const Quantising *q, const float *rgba, const Carry *c
     }
 }
 
-static bool quantise_diffused(const float *rgba, int width, int height, const Quantising *q, uint16_t *out)
+/* D1: runs on across line ends. */
+static void along_row(Quantiser *state, const float *rgba, uint16_t *out)
 {
-    int n = quantise_channels(q);
-    Carry error = { 0 };
-    if (q->dither == DITHER_D1) {              /* runs on across line ends */
-        for (size_t p = 0; p < (size_t)width * (size_t)height; p++) {
-            Carry carried = error;
-            diffuse_pixel(q, rgba + 4 * p, &carried, &error, out + (size_t)n * p);
-        }
-        return true;
+    int n = quantise_channels(&state->how);
+    for (int x = 0; x < state->width; x++, rgba += 4, out += n) {
+        Carry carried = state->error;
+        diffuse_pixel(&state->how, rgba, &carried, &state->error, out);
     }
-    size_t row = (size_t)width + 2;
-    Carry *rows = calloc(2 * row, sizeof *rows);
-    if (rows == NULL)
-        return false;
-    Carry *this_row = rows + 1, *next_row = rows + row + 1;
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++, rgba += 4, out += n) {
-            Carry carried = this_row[x];
-            if (x == 0) {                      /* POV: exchanged after the first pixel has read its offset */
-                Carry *old = this_row;
-                this_row = next_row;
-                next_row = old;
-                memset(next_row - 1, 0, row * sizeof *next_row);
-            }
-            diffuse_pixel(q, rgba, &carried, &error, out);
-            spread(q->dither, this_row, next_row, x, &error, n);
+}
+
+static void diffused_row(Quantiser *state, const float *rgba, uint16_t *out)
+{
+    int n = quantise_channels(&state->how);
+    for (int x = 0; x < state->width; x++, rgba += 4, out += n) {
+        Carry carried = state->this_row[x];
+        if (x == 0) {                          /* POV: exchanged after the first pixel has read its offset */
+            Carry *old = state->this_row;
+            state->this_row = state->next_row;
+            state->next_row = old;
+            memset(old - 1, 0, ((size_t)state->width + 2) * sizeof *old);
         }
-    free(rows);
-    return true;
+        diffuse_pixel(&state->how, rgba, &carried, &state->error, out);
+        spread(state->how.dither, state->this_row, state->next_row, x, &state->error, n);
+    }
+}
+
+/* ---- pictures ---- */
+
+Quantiser *quantiser_new(const Quantising *how, int width, int height)
+{
+    enum { FEW = 256 };                        /* pixels, for which finding all steps does not pay */
+    assert(how->bits >= 1 && how->bits <= 16);
+    bool rows = how->dither == DITHER_D2 || how->dither == DITHER_FS;
+    size_t row = (size_t)width + 2;
+    Quantiser *q = calloc(1, sizeof *q + (rows ? 2 * row * sizeof(Carry) : 0));
+    if (q == NULL)
+        return NULL;
+    q->how = *how;
+    q->width = width;
+    q->this_row = q->rows + 1;
+    q->next_row = q->rows + row + 1;
+    q->by_steps = how->dither == DITHER_NONE && how->bits <= 8 && (size_t)width * (size_t)height > FEW;
+    if (q->by_steps)
+        find_steps(how, false, (1 << how->bits) - 1, &q->colour);
+    if (q->by_steps && how->alpha)
+        find_steps(how, true, (1 << how->bits) - 1, &q->alpha);
+    return q;
+}
+
+void quantiser_free(Quantiser *q)
+{
+    free(q);
+}
+
+void quantiser_row(Quantiser *q, const float *rgba, uint16_t *out)
+{
+    switch (q->how.dither) {
+    case DITHER_NONE:
+        plain_row(q, rgba, out);
+        break;
+    case DITHER_B2: case DITHER_B3: case DITHER_B4:
+        ordered_row(q, rgba, out);
+        break;
+    case DITHER_D1:
+        along_row(q, rgba, out);
+        break;
+    case DITHER_D2: case DITHER_FS:
+        diffused_row(q, rgba, out);
+        break;
+    }
+    q->y++;
 }
 
 bool quantise(const float *rgba, int width, int height, const Quantising *how, uint16_t *out)
 {
-    assert(how->bits >= 1 && how->bits <= 16);
-    switch (how->dither) {
-    case DITHER_NONE:
-        quantise_plain(rgba, (size_t)width * (size_t)height, how, out);
-        return true;
-    case DITHER_B2: case DITHER_B3: case DITHER_B4:
-        quantise_ordered(rgba, width, height, how, out);
-        return true;
-    default:
-        return quantise_diffused(rgba, width, height, how, out);
-    }
+    Quantiser *q = quantiser_new(how, width, height);
+    size_t n = (size_t)width * (size_t)quantise_channels(how);
+    for (int y = 0; q != NULL && y < height; y++, rgba += 4 * (size_t)width, out += n)
+        quantiser_row(q, rgba, out);
+    quantiser_free(q);
+    return q != NULL;
 }

@@ -27,8 +27,14 @@ typedef struct Quantising {
     DitherKind dither;
 } Quantising;
 
-/* Codes of a picture: `channels` (1 grey, 2 grey and alpha, 3, 4) numbers of 0 .. 2^bits - 1 per pixel into out. `rgba` is premultiplied, alpha
- * linear. Scratch for the diffusing dithers is malloced; false: out of memory. */
+/* Codes of pixels: `channels` (1 grey, 2 grey and alpha, 3, 4) numbers of 0 .. 2^bits - 1 each. Colours are premultiplied, alpha linear.
+ * A Quantiser is given the rows of a picture from the top one on. NULL: out of memory. */
+typedef struct Quantiser Quantiser;
+Quantiser *quantiser_new(const Quantising *how, int width, int height);
+void quantiser_free(Quantiser *q);             /* NULL: nothing */
+void quantiser_row(Quantiser *q, const float *rgba, uint16_t *out);
+
+/* All rows. False: out of memory. */
 bool quantise(const float *rgba, int width, int height, const Quantising *how, uint16_t *out);
 
 static inline int quantise_channels(const Quantising *how) { return (how->grey ? 1 : 3) + (how->alpha ? 1 : 0); }

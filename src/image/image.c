@@ -277,6 +277,14 @@ static void widen(uint16_t *code, size_t n, int from, int to)
         code[i] = (uint16_t)(code[i] << (to - from) | code[i] >> (2 * from - to));
 }
 
+const uint16_t *codes_next(Codes *c)
+{
+    quantiser_row(c->quantiser, c->rgba, c->row);
+    c->rgba += 4 * (size_t)c->width;
+    widen(c->row, (size_t)c->width * (size_t)c->channels, c->how->quantising.bits, c->bits);
+    return c->row;
+}
+
 static bool write_codes(FILE *to, const float *rgba, int width, int height, const ImageWriting *how, char error[IMAGE_ERROR])
 {
     const ImageCodec *codec = codec_of(how->format);
@@ -295,20 +303,13 @@ static bool write_codes(FILE *to, const float *rgba, int width, int height, cons
         q->grey = false;
         q->alpha &= w.format != IMAGE_JPEG;
     }
-    size_t n = (size_t)width * (size_t)height * (size_t)quantise_channels(q);
-    uint16_t *code = malloc(n * sizeof *code);
-    if (code == NULL || !quantise(rgba, width, height, q, code)) {
-        free(code);
-        return codec_fail(error, "not enough memory for the picture");
-    }
-    int bits = q->bits;
-    if (w.format == IMAGE_PNG) {
-        bits = q->bits <= 8 ? 8 : 16;
-        widen(code, n, q->bits, bits);
-    }
-    Codes codes = { width, height, quantise_channels(q), bits, code, &w };
-    bool ok = codec->write(to, &codes, error);
-    free(code);
+    int bits = w.format != IMAGE_PNG ? q->bits : q->bits <= 8 ? 8 : 16, channels = quantise_channels(q);
+    Codes codes = { width, height, channels, bits, &w, rgba, quantiser_new(q, width, height),
+                    malloc((size_t)width * (size_t)channels * sizeof(uint16_t)) };
+    bool ok = codes.quantiser != NULL && codes.row != NULL ? codec->write(to, &codes, error)
+                                                           : codec_fail(error, "not enough memory for the picture");
+    quantiser_free(codes.quantiser);
+    free(codes.row);
     if (ok && (fflush(to) != 0 || ferror(to)))
         ok = codec_fail(error, "%s", strerror(errno));
     return ok;

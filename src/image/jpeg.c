@@ -112,7 +112,7 @@ static bool read_image(Str bytes, Image *im, void *pixels, char error[IMAGE_ERRO
     return ok;
 }
 
-static void write_with(const Library *lib, struct jpeg_compress_struct *j, FILE *to, const Codes *c, unsigned char *row)
+static void write_with(const Library *lib, struct jpeg_compress_struct *j, FILE *to, Codes *c, unsigned char *row)
 {
     lib->jpeg_stdio_dest(j, to);
     j->image_width = (JDIMENSION)c->width;
@@ -125,15 +125,16 @@ static void write_with(const Library *lib, struct jpeg_compress_struct *j, FILE 
     lib->jpeg_start_compress(j, TRUE);
     size_t n = (size_t)c->width * 3;
     for (int y = 0; y < c->height; y++) {
+        const uint16_t *code = codes_next(c);
         for (size_t i = 0; i < n; i++)
-            row[i] = (unsigned char)c->code[(size_t)y * n + i];
+            row[i] = (unsigned char)code[i];
         JSAMPROW from = row;
         lib->jpeg_write_scanlines(j, &from, 1);
     }
     lib->jpeg_finish_compress(j);
 }
 
-static bool write_image(FILE *to, const Codes *c, char error[IMAGE_ERROR])
+static bool write_image(FILE *to, Codes *c, char error[IMAGE_ERROR])
 {
     Library lib;
     if (!library(&lib, error))
@@ -165,7 +166,7 @@ static bool read_image(Str bytes, Image *im, void *pixels, char error[IMAGE_ERRO
     return codec_fail(error, "this build has no libjpeg and cannot read JPEG files");
 }
 
-static bool write_image(FILE *to, const Codes *c, char error[IMAGE_ERROR])
+static bool write_image(FILE *to, Codes *c, char error[IMAGE_ERROR])
 {
     (void)to, (void)c;
     return codec_fail(error, "this build has no libjpeg and cannot write JPEG files");

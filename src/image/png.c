@@ -206,17 +206,17 @@ static void narrow(const uint16_t *code, size_t n, int bits, unsigned char *out)
         out[i] = (unsigned char)code[i];
 }
 
-static void write_rows(png_structp png, const Codes *c, unsigned char *row)
+static void write_rows(png_structp png, Codes *c, unsigned char *row)
 {
     size_t samples = (size_t)c->width * (size_t)c->channels;
     for (int y = 0; y < c->height; y++) {
-        narrow(c->code + (size_t)y * samples, samples, c->bits, row);
+        narrow(codes_next(c), samples, c->bits, row);
         png_write_row(png, row);
     }
     png_write_end(png, NULL);
 }
 
-static bool write_image(FILE *to, const Codes *c, char error[IMAGE_ERROR])
+static bool write_image(FILE *to, Codes *c, char error[IMAGE_ERROR])
 {
     Sink sink = { to, error };
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, on_write_error, on_warning);
@@ -247,7 +247,7 @@ static bool read_image(Str bytes, Image *im, void *pixels, char error[IMAGE_ERRO
     return codec_fail(error, "this build has no libpng and cannot read PNG files");
 }
 
-static bool write_image(FILE *to, const Codes *c, char error[IMAGE_ERROR])
+static bool write_image(FILE *to, Codes *c, char error[IMAGE_ERROR])
 {
     (void)to, (void)c;
     return codec_fail(error, "this build has no libpng and cannot write PNG files; PPM, TGA and BMP work");

@@ -109,15 +109,17 @@ static bool read_image(Str bytes, Image *im, void *pixels, char error[IMAGE_ERRO
     return !r.ended || codec_fail(error, "the file ends before its last pixel");
 }
 
-static bool write_image(FILE *to, const Codes *c, char error[IMAGE_ERROR])
+static bool write_image(FILE *to, Codes *c, char error[IMAGE_ERROR])
 {
     (void)error;                               /* the caller looks at ferror */
     fprintf(to, "P%d\n%d %d\n%d\n", c->channels == 1 ? 5 : 6, c->width, c->height, (1 << c->bits) - 1);
-    size_t n = (size_t)c->width * (size_t)c->height * (size_t)c->channels;
-    for (size_t i = 0; i < n; i++) {
-        if (c->bits > 8)
-            putc(c->code[i] >> 8, to);
-        putc(c->code[i] & 255, to);
+    for (int y = 0; y < c->height; y++) {
+        const uint16_t *code = codes_next(c);
+        for (int i = 0; i < c->width * c->channels; i++) {
+            if (c->bits > 8)
+                putc(code[i] >> 8, to);
+            putc(code[i] & 255, to);
+        }
     }
     return true;
 }

@@ -168,7 +168,7 @@ static void write_packed_row(FILE *to, const uint16_t *row, int width, int n)
     }
 }
 
-static bool write_image(FILE *to, const Codes *c, char error[IMAGE_ERROR])
+static bool write_image(FILE *to, Codes *c, char error[IMAGE_ERROR])
 {
     if (c->width > 65535 || c->height > 65535)
         return codec_fail(error, "TGA files have at most 65535 pixels a side");
@@ -178,7 +178,7 @@ static bool write_image(FILE *to, const Codes *c, char error[IMAGE_ERROR])
                                [16] = (unsigned char)(8 * c->channels), [17] = c->channels == 4 ? 0x28 : 0x20 };
     fwrite(head, 1, sizeof head, to);
     for (int y = 0; y < c->height; y++) {
-        const uint16_t *row = c->code + (size_t)y * (size_t)c->width * (size_t)c->channels;
+        const uint16_t *row = codes_next(c);
         if (packed)
             write_packed_row(to, row, c->width, c->channels);
         else
