@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdint.h>
 
 typedef struct Colour { float r, g, b, f, t; } Colour;     /* red, green, blue, filter, transmit */
 typedef float Rgb __attribute__((vector_size(16)));    /* c[0], c[1], c[2]: red, green, blue; the fourth means nothing */
@@ -23,7 +24,12 @@ static inline float rgb_max(Rgb c)              /* fmaxf would be a call */
     return most > c[0] ? most : c[0];
 }
 static inline float rgb_max_abs(Rgb c) { return rgb_max((Rgb){ fabsf(c[0]), fabsf(c[1]), fabsf(c[2]), 0 }); }
-static inline bool rgb_is_zero(Rgb c) { return fabsf(c[0]) + fabsf(c[1]) + fabsf(c[2]) == 0; }        /* one test, not three */
+static inline bool rgb_is_zero(Rgb c)           /* by all bits but the signs: one test, not three */
+{
+    typedef uint64_t Pair __attribute__((vector_size(16)));
+    Pair bits = (Pair)c;
+    return ((bits[0] & 0x7fffffff7fffffff) | (bits[1] & 0x7fffffff)) == 0;
+}
 
 static inline Colour colour_add(Colour a, Colour b)
 {

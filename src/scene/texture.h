@@ -115,6 +115,15 @@ struct Normal {
     double facets_size, facets_coords, facets_metric;
 };
 
+enum {                                         /* Finish.traits: what is asked at every hit */
+    FINISH_LIT = 1,                            /* some light of lights comes back */
+    FINISH_GLOSSY = 2,                         /* in highlights */
+    FINISH_BRILLIANT = 4,                      /* brilliance is not 1 */
+    FINISH_GRAINY = 8,
+    FINISH_FILM = 16,                          /* irid */
+    FINISH_MIRRORS = 32
+};
+
 typedef struct Finish {
     Rgb ambient, emission;
     float diffuse, diffuse_back, brilliance, crand;
@@ -124,6 +133,7 @@ typedef struct Finish {
     float reflection_falloff, reflection_exponent, reflection_metallic;
     bool reflection_fresnel, conserve_energy;
     bool has_subsurface;
+    uint8_t traits;                            /* by finish_settle, of what stands here */
     Rgb subsurface_translucency, subsurface_anisotropy;
     bool has_ior, has_caustics, has_refraction;        /* old syntax: moved to the interior by the object parser */
     float ior, caustics, refraction;

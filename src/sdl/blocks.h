@@ -104,6 +104,7 @@ BlendMap parse_pattern_list(Parser *p, const PatternOps *ops, PatternUse use);
 extern const Pigment PIGMENT_EMPTY;            /* black, no pattern: where densities and sky_spheres begin */
 extern const Normal NORMAL_EMPTY;              /* flat */
 extern const Finish FINISH_DEFAULT;
+void finish_settle(Finish *f);                 /* after every change */
 
 const Pigment *pigment_body(Parser *p, const Pigment *base, PatternUse use);       /* of a pigment or a density */
 const Pigment *pigment_of_colour(Parser *p, Colour c);

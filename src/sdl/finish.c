@@ -8,8 +8,17 @@
 
 const Finish FINISH_DEFAULT = {
     .ambient = { 0.1f, 0.1f, 0.1f }, .diffuse = 0.6f, .brilliance = 1, .phong_size = 40, .roughness = 0.05f,
-    .reflection_falloff = 1, .reflection_exponent = 1,
+    .reflection_falloff = 1, .reflection_exponent = 1, .traits = FINISH_LIT
 };
+
+void finish_settle(Finish *f)
+{
+    bool glossy = f->phong > 0 || f->specular > 0;
+    bool lit = f->diffuse != 0 || f->diffuse_back != 0 || f->phong != 0 || f->specular != 0;
+    bool mirrors = !rgb_is_zero(f->reflection_max) || !rgb_is_zero(f->reflection_min);
+    f->traits = (uint8_t)((lit ? FINISH_LIT : 0) | (glossy ? FINISH_GLOSSY : 0) | (f->brilliance != 1 ? FINISH_BRILLIANT : 0) |
+                          (f->crand > 0 ? FINISH_GRAINY : 0) | (f->irid > 0 ? FINISH_FILM : 0) | (mirrors ? FINISH_MIRRORS : 0));
+}
 
 static float number(Parser *p)
 {
@@ -169,6 +178,7 @@ const Finish *finish_items(Parser *p, const Finish *base)
     if (!changed)
         return NULL;
     apply_albedo(&f);
+    finish_settle(&f);
     Blocks *b = parse_blocks(p);
     uint32_t h = hash_of(&f) % FINISH_CACHE;
     if (b->finish_cache[h] == NULL || memcmp(b->finish_cache[h], &f, sizeof f) != 0)

@@ -18,6 +18,7 @@ static const Finish *grain(Parser *p, const Finish *from)
 {
     Finish *f = arena_copy(parse_arena(p), from, sizeof *from);
     f->crand = (float)parse_float(p);
+    finish_settle(f);
     return f;
 }
 

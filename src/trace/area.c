@@ -146,7 +146,9 @@ static Rgb seen_from(const Area *a, Vec3 from)
 {
     Beam beam;
     light_towards(a->light, from, a->spot->p, &beam);
-    return shadow_walk(a->spot, a->index, &beam, a->colour, a->among);
+    beam.colour = a->colour;
+    shadow_walk(a->spot, a->index, &beam, a->among);
+    return beam.colour;
 }
 
 static AreaSample *sample_at(const Area *a, int u, int v)

@@ -55,11 +55,6 @@ static double light_share(const Light *light, Vec3 p, Vec3 l, double d)
     return share;
 }
 
-static bool is_dark(Rgb c)
-{
-    return fabsf(c[0]) < (float)TINY && fabsf(c[1]) < (float)TINY && fabsf(c[2]) < (float)TINY;
-}
-
 /* Along the straight line to a place of the light. */
 static inline void aim(Beam *out, const Light *light, Vec3 v)
 {
@@ -120,18 +115,18 @@ typedef struct Gloss {
 typedef struct Lit {                           /* a layer under all lights */
     Shade *s;
     const Layer *layer;
+    const Vec3 *n;                             /* perturbed */
     Gloss gloss;
 } Lit;
 
-static inline void gloss_start(Gloss *g, const Shade *s, const Layer *layer)
+static inline void gloss_start(Gloss *g, const Shade *s, const Finish *f, const Vec3 *n)
 {
-    const Finish *f = layer->finish;
-    g->any = (f->phong > 0 || f->specular > 0) && s->path->ticket->bounces == 0;
+    g->any = (f->traits & FINISH_GLOSSY) && (s->lamps & LAMP_SHINES);
     if (!g->any)
         return;
     g->alone = f->phong > 0 ? f->phong < 1e6f && !(f->specular > 0) : f->specular < 1e6f;
     if (f->phong > 0)
-        g->mirrored = sub(s->path->ray.d, scaled(*layer->n, 2 * dot(s->path->ray.d, *layer->n)));
+        g->mirrored = sub(s->path->ray.d, scaled(*n, 2 * dot(s->path->ray.d, *n)));
     if (f->specular > 0)
         g->sharpness = f->roughness != 0 ? 1 / (double)f->roughness : 0;
 }
@@ -174,8 +169,8 @@ static Rgb highlight(const Lit *lit, const Vec3 *l, Rgb sum)
     const Layer *layer = lit->layer;
     const Finish *f = layer->finish;
     double shine = (f->phong > 0 ? phong(f, &lit->gloss, *l) : 0) +
-                   (f->specular > 0 ? specular(f, &lit->gloss, lit->s->path->ray.d, *layer->n, *l) : 0);
-    return shine > 0 ? rgb_add(sum, rgb_scaled(metallic_tint(f->metallic, layer->colour, dot(*layer->n, *l)), (float)shine)) : sum;
+                   (f->specular > 0 ? specular(f, &lit->gloss, lit->s->path->ray.d, *lit->n, *l) : 0);
+    return shine > 0 ? rgb_add(sum, rgb_scaled(metallic_tint(f->metallic, layer->colour, dot(*lit->n, *l)), (float)shine)) : sum;
 }
 
 typedef struct Facing {                        /* how the surface stands to a light */
@@ -185,7 +180,7 @@ typedef struct Facing {                        /* how the surface stands to a li
 
 static inline Facing facing_of(const Lit *lit, const Vec3 *l)
 {
-    double cosine = dot(*lit->layer->n, *l);
+    double cosine = dot(*lit->n, *l);
     return (Facing){ cosine, !(cosine >= TINY) && !(lit->s->material->flags & MATERIAL_DOUBLE_ILLUMINATE) };
 }
 
@@ -203,7 +198,7 @@ static inline Rgb answer(const Lit *lit, unsigned lamp, const Vec3 *l, Facing fa
     double k = diffuse_strength(f, facing.behind);
     if (k > 0) {                               /* opacity may be negative: a colour with filter + transmit above 1 */
         double cosine = fabs(facing.cosine);
-        double intensity = f->brilliance == 1 ? cosine : pow(cosine, (double)f->brilliance);
+        double intensity = f->traits & FINISH_BRILLIANT ? pow(cosine, (double)f->brilliance) : cosine;
         sum = rgb_scaled(layer->colour, (float)(intensity * k * layer->opacity - grain));
     }
     return lit->gloss.any && (lamp & LAMP_SHINES) && !facing.behind ? highlight(lit, l, sum) : sum;
@@ -212,40 +207,47 @@ static inline Rgb answer(const Lit *lit, unsigned lamp, const Vec3 *l, Facing fa
 static Rgb film(const Lit *lit, const Vec3 *l)
 {
     const Shade *s = lit->s;
-    return finish_iridescence(lit->layer->finish, s->at.point, fabs(dot(*lit->layer->n, *l)), fabs(dot(*lit->layer->n, s->path->ray.d)),
+    return finish_iridescence(lit->layer->finish, s->at.point, fabs(dot(*lit->n, *l)), fabs(dot(*lit->n, s->path->ray.d)),
                               s->t->world->globals.irid_wavelength, &s->at);
 }
 
 static inline Rgb iridescent(const Lit *lit, const Vec3 *l, Rgb light)
 {
-    return lit->layer->finish->irid > 0 ? rgb_mul(light, film(lit, l)) : light;
+    return lit->layer->finish->traits & FINISH_FILM ? rgb_mul(light, film(lit, l)) : light;
 }
 
 /* ---- shadows ---- */
 
-static inline Rgb after_shadows(const Spot *spot, uint32_t index, unsigned lamp, const Beam *beam)
+static inline bool after_shadows(const Spot *spot, uint32_t index, unsigned lamp, Beam *beam)
 {
     if (!(lamp & LAMP_SHADED))
-        return beam->colour;
-    return (lamp & LAMP_AREA) && !spot->roughly ? area_visible(spot, index, beam->colour)
-                                                : shadow_walk(spot, index, beam, beam->colour, NULL);
+        return true;
+    if (!(lamp & LAMP_AREA))
+        return shadow_walk(spot, index, beam, NULL);
+    beam->colour = area_visible(spot, index, beam->colour);
+    return !is_dark(beam->colour);
 }
 
-Rgb light_shadowed(const Spot *spot, uint32_t index, const Beam *beam)
+bool light_shadowed(const Spot *spot, uint32_t index, Beam *beam)
 {
     return after_shadows(spot, index, spot->t->tracing->lamp[index], beam);
 }
 
-/* Shadows fall alike on all layers of a hit. */
-static inline Rgb shadowed(Shade *s, uint32_t index, unsigned lamp, const Beam *beam)
+__attribute__((noinline)) static bool shadowed_once(Shade *s, uint32_t index, unsigned lamp, Beam *beam)
 {
-    if (!(lamp & LAMP_REMEMBERED))
-        return after_shadows(&s->spot, index, lamp, beam);
     if (!(s->known >> index & 1)) {
         s->known |= 1u << index;
-        s->light[index] = after_shadows(&s->spot, index, lamp, beam);
+        after_shadows(&s->spot, index, lamp, beam);
+        s->light[index] = beam->colour;
     }
-    return s->light[index];
+    beam->colour = s->light[index];
+    return !is_dark(beam->colour);
+}
+
+/* Shadows fall alike on all layers of a hit. */
+static inline bool shadowed(Shade *s, uint32_t index, unsigned lamp, Beam *beam)
+{
+    return lamp & LAMP_REMEMBERED ? shadowed_once(s, index, lamp, beam) : after_shadows(&s->spot, index, lamp, beam);
 }
 
 /* ---- the loop ---- */
@@ -264,11 +266,11 @@ static Rgb illuminate_by_area(const Lit *lit, uint32_t index, unsigned lamp)
     Beam centre;
     light_towards(light, light->location, s->surface->p, &centre);
     centre.colour = light->colour;             /* each sample fades on its own */
-    Rgb visible = shadowed(s, index, lamp, &centre), sum = rgb_grey(0);
-    if (is_dark(visible))
+    Rgb sum = rgb_grey(0);
+    if (!shadowed(s, index, lamp, &centre))
         return sum;
     int n1 = light->def->size1, n2 = light->def->size2;
-    Rgb share = rgb_scaled(visible, 1 / (float)(n1 * n2));
+    Rgb share = rgb_scaled(centre.colour, 1 / (float)(n1 * n2));
     AreaAxes axes = area_axes(light, centre.l);
     for (int v = 0; v < n2; v++)
         for (int u = 0; u < n1; u++) {
@@ -284,21 +286,20 @@ static Rgb illuminate_by_area(const Lit *lit, uint32_t index, unsigned lamp)
 }
 
 /* Grain is drawn for what is lit only: after the shadow. */
-static Rgb illuminate_grainy(const Lit *lit, uint32_t index, unsigned lamp, const Beam *beam, Facing facing)
+static Rgb illuminate_grainy(const Lit *lit, uint32_t index, unsigned lamp, Beam *beam, Facing facing)
 {
-    Rgb colour = shadowed(lit->s, index, lamp, beam);
-    if (is_dark(colour))
+    if (!shadowed(lit->s, index, lamp, beam))
         return rgb_grey(0);
     Rgb factor = answer(lit, lamp, &beam->l, facing, grain_of(lit, facing));
-    return rgb_mul(iridescent(lit, &beam->l, factor), colour);
+    return rgb_mul(iridescent(lit, &beam->l, factor), beam->colour);
 }
 
 static inline Rgb illuminate(const Lit *lit, uint32_t index)
 {
     Shade *s = lit->s;
     const Light *light = &s->t->world->light[index];
-    unsigned lamp = s->t->tracing->lamp[index];
-    if ((lamp & LAMP_AREA_LIGHT) && s->path->ticket->bounces == 0)
+    unsigned lamp = s->t->tracing->lamp[index] & s->lamps;
+    if (lamp & LAMP_AREA_LIGHT)
         return illuminate_by_area(lit, index, lamp);
     Beam beam;
     if (lamp & LAMP_PLAIN) {
@@ -310,31 +311,26 @@ static inline Rgb illuminate(const Lit *lit, uint32_t index)
     Facing facing = facing_of(lit, &beam.l);
     if (!is_lit(lit, facing))
         return rgb_grey(0);
-    if (lit->layer->finish->crand > 0)
+    if (lit->layer->finish->traits & FINISH_GRAINY)
         return illuminate_grainy(lit, index, lamp, &beam, facing);
     Rgb factor = answer(lit, lamp, &beam.l, facing, 0);
-    if (rgb_is_zero(factor))
-        return factor;
-    Rgb colour = shadowed(s, index, lamp, &beam);
-    return is_dark(colour) ? rgb_grey(0) : rgb_mul(iridescent(lit, &beam.l, factor), colour);
+    if (rgb_is_zero(factor) || !shadowed(s, index, lamp, &beam))
+        return rgb_grey(0);
+    return rgb_mul(iridescent(lit, &beam.l, factor), beam.colour);
 }
 
-Rgb shade_lights(Shade *s, const Layer *layer)
+Rgb shade_lights(Shade *s, const Layer *layer, const Vec3 *n)
 {
-    const Finish *f = layer->finish;
     Rgb sum = rgb_grey(0);
-    if (s->t->vain && s->path->ticket->bounces == 0)
+    if (!(layer->finish->traits & FINISH_LIT) || (s->t->vain && s->path->ticket->bounces == 0))
         return sum;
-    if (f->diffuse == 0 && f->diffuse_back == 0 && f->specular == 0 && f->phong == 0)
-        return sum;
-    const World *w = s->t->world;
-    const Material *m = s->material;
     Lit lit;
     lit.s = s;
     lit.layer = layer;
-    gloss_start(&lit.gloss, s, layer);
-    uint32_t n_global = m->flags & MATERIAL_NO_GLOBAL_LIGHTS ? 0 : w->n_global_lights;
-    for (uint32_t i = 0; i < n_global + m->n_group_lights; i++)
-        sum = rgb_add(sum, illuminate(&lit, i < n_global ? i : w->group_light[m->first_group_light + i - n_global]));
+    lit.n = n;
+    gloss_start(&lit.gloss, s, layer->finish, n);
+    const LightList *list = s->lit_by;
+    for (uint32_t i = 0; i < list->n; i++)
+        sum = rgb_add(sum, illuminate(&lit, list->light[i]));
     return sum;
 }

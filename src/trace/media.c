@@ -93,16 +93,16 @@ static Rgb light_at(const Stretch *s, Vec3 p, double at)
 {
     const World *w = s->t->world;
     Rgb sum = rgb_grey(0);
-    Spot spot = { s->t, p, NULL, s->in, false };
+    Spot spot = { s->t, p, NULL, s->in };
     for (uint32_t i = 0; i < s->n_light_spans; i++) {
         const LightSpan *span = &s->t->light_span[i];
         const Light *light = &w->light[span->light];
         Beam beam;
         if (at < span->from || at > span->to || !light_beam(light, light->location, p, light->colour, &beam))
             continue;
-        Rgb c = light_shadowed(&spot, span->light, &beam);
-        if (!rgb_is_zero(c))
-            sum = rgb_add(sum, rgb_scaled(c, (float)mean_phase(s, beam.l)));
+        light_shadowed(&spot, span->light, &beam);
+        if (!rgb_is_zero(beam.colour))
+            sum = rgb_add(sum, rgb_scaled(beam.colour, (float)mean_phase(s, beam.l)));
     }
     return sum;
 }

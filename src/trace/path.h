@@ -48,13 +48,30 @@ typedef struct Ticket {                        /* limits of a ray and of all tha
     int bounces;                               /* of diffuse light: how many gathering rays stand behind it */
 } Ticket;
 
+/* A finish at work: one layer of a leaf. */
+typedef struct Layer {
+    const Finish *finish;
+    Rgb colour;
+    double opacity;
+} Layer;
+
+/* A texture that is the same everywhere, as far as it can be shaded without a hit. */
+typedef struct Coat {
+    TextureLeaf leaf;                          /* all there is of it; top NULL: it is not the same everywhere */
+    bool matte;                                /* what is seen of it is glow, and what lights give to its layer */
+    Layer layer;
+    Rgb glow;
+} Coat;
+
+typedef struct LightList { const uint32_t *light; uint32_t n; } LightList;     /* in World.light */
+
 typedef struct Gather Gather;                  /* radiosity.c: what one tracer has gathered */
 
 struct Tracing {
     const World *world;
     int quality;
     bool alpha, legacy;                        /* legacy: the scene speaks a language before 3.7 */
-    const TextureLeaf *flat;                   /* per texture of the World: all there is of a flat one; top NULL: of others */
+    const Coat *coat;                          /* per texture of the World */
     Rgb ambient_light;                         /* none under radiosity, but in old scenes */
     bool plain_sky;                            /* the same all round: */
     Colour sky[2];                             /* not seen through, and seen through */
@@ -72,6 +89,7 @@ struct Tracing {
     Bow *bow;                   uint32_t n_bows;
     double *stream;                            /* stream A, if anything draws from it */
     uint8_t *lamp;                             /* per light: LAMP_* */
+    LightList *lit_by;                         /* per material of the World */
     uint32_t n_area_samples;                   /* of the largest area light */
     uint32_t *area_least;                      /* per light: how many of its samples are asked at the least */
     float hue[3][HUES];                        /* cumulative, red, green, blue */
@@ -116,7 +134,6 @@ typedef struct Spot {
     Vec3 p;
     const Surface *surface;
     const Interiors *in;                       /* bodies around the ray that came here */
-    bool roughly;                              /* area lights count as points */
 } Spot;
 
 /* One hit being shaded. */
@@ -126,6 +143,8 @@ typedef struct Shade {
     const Path *path;
     const Surface *surface;
     const Material *material;
+    const LightList *lit_by;
+    unsigned lamps;                            /* LAMP_* that count here */
     uint32_t interior;
     double depth;
     int level;                                 /* that secondary rays start with */
@@ -146,14 +165,6 @@ static inline TextureContext texture_context(const Tracing *tracing, const Surfa
                              .noise_generator = globals->noise_generator };
 }
 
-/* A finish at work: one layer of a leaf. */
-typedef struct Layer {
-    const Finish *finish;
-    const Vec3 *n;                             /* perturbed */
-    Rgb colour;
-    double opacity;
-} Layer;
-
 typedef struct Polish {                        /* of a layer, for what it mirrors */
     const Finish *finish;
     Vec3 n;                                    /* perturbed */
@@ -169,6 +180,7 @@ typedef struct Beam {                          /* light as it arrives: unshadowe
 Colour trace_path(Tracer *t, const Path *path);
 
 /* shade.c */
+void coat_prepare(Coat *coat, const Tracing *tracing, const Texture *texture);
 Colour shade_hit(Tracer *t, const Path *path, const Hit *hit, int level);
 
 /* secondary.c: rays that leave a surface. */
@@ -187,13 +199,19 @@ bool light_is_plain(const Light *light);
 /* from: the light's place, or a sample of its area. */
 void light_towards(const Light *light, Vec3 from, Vec3 p, Beam *out);      /* all but the colour */
 bool light_beam(const Light *light, Vec3 from, Vec3 p, Rgb colour, Beam *out);      /* false: no light */
-Rgb shade_lights(Shade *s, const Layer *layer);
+Rgb shade_lights(Shade *s, const Layer *layer, const Vec3 *n);         /* n: perturbed */
 
-/* What of beam->colour gets through to the spot, from all of the light's area if it has one. */
-Rgb light_shadowed(const Spot *spot, uint32_t light, const Beam *beam);
+static inline bool is_dark(Rgb c)
+{
+    return fabsf(c[0]) < (float)TINY && fabsf(c[1]) < (float)TINY && fabsf(c[2]) < (float)TINY;
+}
 
-/* shadow.c: `colour` as it passes from the light at distance beam->d to the spot. */
-Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour, const Shaft *among);  /* NULL: all prims */
+/* Leaves of beam->colour, which is not dark, what gets through to the spot, from all of the light's area if it has one. False: it
+ * is dark. */
+bool light_shadowed(const Spot *spot, uint32_t light, Beam *beam);
+
+/* shadow.c: the same, from the light at distance beam->d alone. */
+bool shadow_walk(const Spot *spot, uint32_t light, Beam *beam, const Shaft *among);    /* NULL: all prims */
 
 static inline Ray shadow_ray(const Spot *spot, Vec3 l, double d)
 {

@@ -104,6 +104,27 @@ static void prepare_lamps(Arena *arena, Tracing *tracing, const World *w)
         tracing->lamp[i] = lamp_of(&w->light[i], i, tracing->quality);
 }
 
+static void prepare_light_lists(Arena *arena, Tracing *tracing, const World *w)
+{
+    uint32_t *global = arena_array(arena, uint32_t, w->n_global_lights + 1);
+    for (uint32_t i = 0; i < w->n_global_lights; i++)
+        global[i] = i;
+    tracing->lit_by = arena_array(arena, LightList, w->n_materials + 1);
+    for (uint32_t i = 0; i < w->n_materials; i++) {
+        const Material *m = &w->material[i];
+        const uint32_t *group = &w->group_light[m->first_group_light];
+        uint32_t n_global = m->flags & MATERIAL_NO_GLOBAL_LIGHTS ? 0 : w->n_global_lights;
+        const uint32_t *list = n_global == 0 ? group : global;
+        if (n_global > 0 && m->n_group_lights > 0) {
+            uint32_t *both = arena_array(arena, uint32_t, n_global + m->n_group_lights);
+            memcpy(both, global, n_global * sizeof *both);
+            memcpy(both + n_global, group, m->n_group_lights * sizeof *both);
+            list = both;
+        }
+        tracing->lit_by[i] = (LightList){ list, n_global + m->n_group_lights };
+    }
+}
+
 static void prepare_areas(Arena *arena, Tracing *tracing, const World *w)
 {
     tracing->n_area_samples = 1;
@@ -167,13 +188,13 @@ static Colour background_of(const World *w, bool alpha, bool legacy)
     return (Colour){ b.r * (1 - b.t), b.g * (1 - b.t), b.b * (1 - b.t), 0, 0 };
 }
 
-static const TextureLeaf *flat_textures(Arena *arena, const World *w)
+static const Coat *coats_new(Arena *arena, const Tracing *tracing, const World *w)
 {
-    TextureLeaf *flat = arena_array(arena, TextureLeaf, w->n_textures + 1);
+    Coat *coat = arena_array(arena, Coat, w->n_textures + 1);
     for (uint32_t i = 1; i < w->n_textures; i++)
         if (texture_is_flat(w->texture[i].texture))
-            flat[i] = (TextureLeaf){ .top = w->texture[i].texture, .weight = 1 };
-    return flat;
+            coat_prepare(&coat[i], tracing, w->texture[i].texture);
+    return coat;
 }
 
 const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha)
@@ -193,9 +214,10 @@ const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha
     tracing->ticket = (Ticket){ .adc_bailout = w->globals.adc_bailout, .max_level = tracing->max_level };
     tracing->radiosity = w->globals.radiosity.on && quality >= 9;
     tracing->ambient_light = tracing->radiosity && !tracing->legacy ? rgb_grey(0) : w->globals.ambient_light;
-    tracing->flat = flat_textures(arena, w);
+    tracing->coat = coats_new(arena, tracing, w);
     prepare_areas(arena, tracing, w);
     prepare_lamps(arena, tracing, w);
+    prepare_light_lists(arena, tracing, w);
     tracing->has_media = quality >= 9 && has_media(w);
     prepare_air(arena, tracing, w->scene);
     tracing->air_dims = quality >= 9 && tracing->n_fog + w->scene->n_media > 0;

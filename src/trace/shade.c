@@ -44,15 +44,10 @@ static Rgb mix(Rgb low, Rgb high, double x)
     return rgb_add(rgb_scaled(high, (float)x), rgb_scaled(low, (float)(1 - x)));
 }
 
-static inline bool mirrors_light(const Finish *f)
-{
-    return !rgb_is_zero(f->reflection_max) || !rgb_is_zero(f->reflection_min);
-}
-
-static Rgb reflectivity(const Shade *s, const Layer *layer)
+static Rgb reflectivity(const Shade *s, const Layer *layer, const Vec3 *n)
 {
     const Finish *f = layer->finish;
-    double cosine = -dot(s->path->ray.d, *layer->n);
+    double cosine = -dot(s->path->ray.d, *n);
     Rgb r;
     if (f->reflection_fresnel) {
         double share = fresnel(interior_ratio(s->t->world, s->path->in, s->interior), cosine);
@@ -89,17 +84,16 @@ static Rgb mirror_light(const Shade *s, const Mirror *m)
     return rgb_mul(seen, m->share);
 }
 
-static void remember_mirror(const Shade *s, const Layer *layer, Rgb share, double through, Mirrors *mirrors)
+static void remember_mirror(const Shade *s, const Finish *f, const Vec3 *n, Rgb share, double through, Mirrors *mirrors)
 {
     if (rgb_is_zero(share) || s->t->tracing->quality < 8)
         return;
-    const Finish *f = layer->finish;
     double weight = s->path->weight * through * mirror_weight(f, share);
     if (shade_gives_up(s, weight) && f->reflection_exponent >= 0)
         return;                                /* black, and a power of black */
     Mirror *m = &mirrors->mirror[mirrors->n];
     m->polish.finish = f;
-    m->polish.n = *layer->n;
+    m->polish.n = *n;
     m->share = share;
     m->weight = weight;
     if (mirrors->n < MIRRORS_MAX)
@@ -118,7 +112,7 @@ static float opacity(const Tracing *tracing, Colour c)
 }
 
 /* Gathered for the first layer that shows enough of it. */
-static Rgb light_around(const Shade *s, const Layer *layer, Rgb filter, Around *around)
+static Rgb light_around(const Shade *s, const Layer *layer, const Vec3 *n, Rgb filter, Around *around)
 {
     const Finish *f = layer->finish;
     if (f->has_subsurface || !gather_here(s))
@@ -129,9 +123,9 @@ static Rgb light_around(const Shade *s, const Layer *layer, Rgb filter, Around *
         around->known = true;
         around->front = around->back = rgb_grey(0);
         Vec3 raw = s->surface->normal;
-        around->front = gathered_light(s, *layer->n, raw, s->path->weight * seen);
+        around->front = gathered_light(s, *n, raw, s->path->weight * seen);
         if (f->diffuse_back != 0)
-            around->back = gathered_light(s, negated(*layer->n), negated(raw), s->path->weight * seen);
+            around->back = gathered_light(s, negated(*n), negated(raw), s->path->weight * seen);
     }
     if (!around->known)
         return rgb_grey(0);
@@ -139,42 +133,50 @@ static Rgb light_around(const Shade *s, const Layer *layer, Rgb filter, Around *
     return rgb_scaled(rgb_mul(layer->colour, light), (float)layer->opacity);
 }
 
-/* What the layer sends towards the viewer, mirrors left aside. */
-static inline Rgb layer_light(Shade *s, const Layer *layer, Rgb filter, Around *around)
+/* What the layer sends out without any light. */
+static inline Rgb layer_glow(const Tracing *tracing, const Layer *layer)
 {
-    const Tracing *tracing = s->t->tracing;
-    const Finish *f = layer->finish;
-    Rgb glow = rgb_add(rgb_mul(f->ambient, tracing->ambient_light), f->emission);
-    Rgb light = rgb_scaled(rgb_mul(layer->colour, glow), (float)layer->opacity);
-    if (tracing->radiosity)
-        light = rgb_add(light, light_around(s, layer, filter, around));
-    return rgb_add(light, shade_lights(s, layer));
+    Rgb glow = rgb_add(rgb_mul(layer->finish->ambient, tracing->ambient_light), layer->finish->emission);
+    return rgb_scaled(rgb_mul(layer->colour, glow), (float)layer->opacity);
+}
+
+/* What the layer sends towards the viewer, mirrors left aside. */
+static inline Rgb layer_light(Shade *s, const Layer *layer, const Vec3 *n, Rgb filter, Around *around)
+{
+    Rgb light = layer_glow(s->t->tracing, layer);
+    if (s->t->tracing->radiosity)
+        light = rgb_add(light, light_around(s, layer, n, filter, around));
+    return rgb_add(light, shade_lights(s, layer, n));
 }
 
 /* What is seen of a layer before any light falls on it. */
 typedef struct Look {
     Layer layer;
+    const Vec3 *n;
     Colour colour;
     bool found;                                /* an image with `once` may have nothing here */
     Vec3 bumps;                                /* the normal, if it is not the surface's */
 } Look;
 
+static inline Layer layer_of(const Tracing *tracing, const Finish *finish, Colour c)
+{
+    return (Layer){ finish, rgb_of(c), (double)opacity(tracing, c) };
+}
+
 static inline void look_at(Shade *s, const TextureLeaf *leaf, const Texture *texture, Look *out)
 {
     const Tracing *tracing = s->t->tracing;
-    out->layer.finish = texture->finish;
-    out->layer.n = &s->surface->normal;
+    out->n = &s->surface->normal;
     if (texture->normal != NULL && tracing->quality >= 8) {
         out->bumps = texture_layer_bumps(leaf, texture, s->surface->normal, &s->at);
-        out->layer.n = &out->bumps;
+        out->n = &out->bumps;
     }
     out->found = true;
     Colour c = texture_layer_colour(leaf, texture, &s->at, &out->found);
     if (!out->found && tracing->quality > 1)   /* POV: low quality shows the white that stands for nothing */
         c = (Colour){ 0, 0, 0, 0, 0 };
     out->colour = c;
-    out->layer.colour = rgb_of(c);
-    out->layer.opacity = (double)opacity(tracing, c);
+    out->layer = layer_of(tracing, texture->finish, c);
 }
 
 static inline float kept(float share)          /* of the light that conserves its energy */
@@ -189,11 +191,11 @@ static void add_layer(Shade *s, const Look *look, Stack *k, Mirrors *mirrors, Ar
     if (s->t->tracing->quality <= 1) {
         k->sum = rgb_of(c);
     } else {
-        if (mirrors_light(look->layer.finish)) {
-            share = reflectivity(s, &look->layer);
-            remember_mirror(s, &look->layer, share, k->through, mirrors);
+        if (look->layer.finish->traits & FINISH_MIRRORS) {
+            share = reflectivity(s, &look->layer, look->n);
+            remember_mirror(s, look->layer.finish, look->n, share, k->through, mirrors);
         }
-        k->sum = rgb_add(k->sum, rgb_mul(layer_light(s, &look->layer, k->filter, around), k->filter));
+        k->sum = rgb_add(k->sum, rgb_mul(layer_light(s, &look->layer, look->n, k->filter, around), k->filter));
     }
     if (look->found) {
         k->filter = rgb_mul(k->filter, colour_transmittance(c));
@@ -219,7 +221,7 @@ static void shade_stack(Shade *s, const TextureLeaf *leaf, Look *look)
     k.filter = rgb_grey(1);
     k.through = 1;
     k.filtered = false;
-    Polish top = { leaf->top->finish, *look->layer.n };
+    Polish top = { leaf->top->finish, *look->n };
     Around around;                             /* not cleared, as the mirrors: large, and few */
     around.known = false;
     Mirrors mirrors;
@@ -246,10 +248,9 @@ static void shade_stack(Shade *s, const TextureLeaf *leaf, Look *look)
 }
 
 /* Does the top layer hide all below, and mirror nothing? */
-static inline bool is_matte(const Shade *s, const Look *look)
+static inline bool is_matte(const Tracing *tracing, double adc_bailout, const Finish *finish, Colour c)
 {
-    return look->found && s->t->tracing->quality > 1 && s->path->ticket->adc_bailout >= 0 &&
-           rgb_is_zero(colour_transmittance(look->colour)) && !mirrors_light(look->layer.finish);
+    return tracing->quality > 1 && adc_bailout >= 0 && rgb_is_zero(colour_transmittance(c)) && !(finish->traits & FINISH_MIRRORS);
 }
 
 /* Most leaves are matte, and need no stack: their light is all. */
@@ -260,21 +261,32 @@ static void shade_leaf(void *user, const TextureLeaf *leaf)
         return;                                /* not even the top layer counts */
     Look look;
     look_at(s, leaf, leaf->top, &look);
-    if (!is_matte(s, &look)) {
+    if (!look.found || !is_matte(s->t->tracing, s->path->ticket->adc_bailout, look.layer.finish, look.colour)) {
         shade_stack(s, leaf, &look);
         return;
     }
     Around around;
     around.known = false;
-    Rgb light = rgb_scaled(layer_light(s, &look.layer, rgb_grey(1), &around), leaf->weight);
+    Rgb light = rgb_scaled(layer_light(s, &look.layer, look.n, rgb_grey(1), &around), leaf->weight);
     s->sum = colour_of(rgb_add(rgb_of(s->sum), light), s->sum.f, s->sum.t);
+}
+
+/* A ray that gathers light has its own bailout, and brings what the layer itself does not know of. */
+void coat_prepare(Coat *coat, const Tracing *tracing, const Texture *texture)
+{
+    double bailout = tracing->ticket.adc_bailout;
+    Colour c = texture->pigment->colour;
+    coat->leaf = (TextureLeaf){ .top = texture, .weight = 1 };
+    coat->layer = layer_of(tracing, texture->finish, c);
+    coat->glow = layer_glow(tracing, &coat->layer);
+    coat->matte = !tracing->radiosity && bailout < 1 && is_matte(tracing, bailout, texture->finish, c);
 }
 
 /* ---- a hit ---- */
 
 static void shade_texture(Shade *s, uint32_t texture)
 {
-    const TextureLeaf *flat = &s->t->tracing->flat[texture];
+    const TextureLeaf *flat = &s->t->tracing->coat[texture].leaf;
     if (flat->top != NULL) {
         shade_leaf(s, flat);
         return;
@@ -298,30 +310,42 @@ static void shade_share(Shade *s, uint32_t texture, float weight)
     s->sum = colour_add(before, weight == 1 ? s->sum : colour_scaled(s->sum, weight));
 }
 
+/* Gathering rays take area lights for points, and see no highlights. */
+enum { GATHERED_LAMPS = LAMP_PLAIN | LAMP_SHADED | LAMP_REMEMBERED };
+
 Colour shade_hit(Tracer *t, const Path *path, const Hit *hit, int level)
 {
     const World *w = t->world;
-    const Material *m = &w->material[w->prim[hit->prim].material];
+    const Tracing *tracing = t->tracing;
+    uint32_t material = w->prim[hit->prim].material;
+    const Material *m = &w->material[material];
     Surface surface;
-    world_surface(w, &path->ray, hit, t->tracing->wants_uv, &surface);
+    world_surface(w, &path->ray, hit, tracing->wants_uv, &surface);
+    uint32_t texture = surface.back && (m->flags & MATERIAL_HAS_INTERIOR_TEXTURE) ? m->interior_texture : m->texture;
     Shade s;                                   /* not cleared: nothing of `light` is known, nor the context */
     s.t = t;
     s.path = path;
     s.surface = &surface;
     s.material = m;
-    s.interior = m->interior;
-    s.depth = hit->t;
-    s.level = level;
-    s.at.hit = false;
-    s.spot = (Spot){ t, surface.p, &surface, path->in, path->ticket->bounces > 0 };
-    s.known = 0;
-    s.sum = (Colour){ 0, 0, 0, 0, 0 };
-    uint32_t texture = surface.back && (m->flags & MATERIAL_HAS_INTERIOR_TEXTURE) ? m->interior_texture : m->texture;
-    if (surface.n_textures == 0)
-        shade_texture(&s, texture);
-    for (uint32_t i = 0; i < surface.n_textures; i++)
-        shade_share(&s, surface.texture[i].texture != 0 ? surface.texture[i].texture : texture, surface.texture[i].weight);
-    if (t->tracing->has_media)
-        s.sum = media_bodies(t, path, m, hit->t, s.sum);
-    return s.sum;
+    s.lit_by = &tracing->lit_by[material];
+    s.lamps = path->ticket->bounces > 0 ? GATHERED_LAMPS : ~0u;
+    s.spot = (Spot){ t, surface.p, &surface, path->in };
+    const Coat *coat = &tracing->coat[texture];
+    if (coat->matte && surface.n_textures == 0) {
+        s.lamps &= ~(unsigned)LAMP_REMEMBERED; /* nobody asks again */
+        Rgb light = rgb_add(coat->glow, shade_lights(&s, &coat->layer, &surface.normal));
+        s.sum = colour_of(light, 0, 0);
+    } else {
+        s.interior = m->interior;
+        s.depth = hit->t;
+        s.level = level;
+        s.at.hit = false;
+        s.known = 0;
+        s.sum = (Colour){ 0, 0, 0, 0, 0 };
+        if (surface.n_textures == 0)
+            shade_texture(&s, texture);
+        for (uint32_t i = 0; i < surface.n_textures; i++)
+            shade_share(&s, surface.texture[i].texture != 0 ? surface.texture[i].texture : texture, surface.texture[i].weight);
+    }
+    return tracing->has_media ? media_bodies(t, path, m, hit->t, s.sum) : s.sum;
 }

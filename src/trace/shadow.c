@@ -101,7 +101,7 @@ static void pass_leaf(void *user, const TextureLeaf *leaf)
 static void pass_texture(Veil *veil, const Material *m, uint32_t texture)
 {
     const Tracing *tracing = veil->t->tracing;
-    const TextureLeaf *flat = &tracing->flat[texture];
+    const TextureLeaf *flat = &tracing->coat[texture].leaf;
     if (veil->weight < (float)tracing->ticket.adc_bailout || texture == 0)
         return;
     if (flat->top != NULL) {
@@ -246,7 +246,13 @@ bool shadow_dims(const Tracer *t, const Light *light)
     return t->tracing->air_dims && light->def->media_attenuation && light->def->media_interaction;
 }
 
-Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour, const Shaft *among)
+static bool darkened(Beam *beam)
+{
+    beam->colour = rgb_grey(0);
+    return false;
+}
+
+bool shadow_walk(const Spot *spot, uint32_t light, Beam *beam, const Shaft *among)
 {
     Tracer *t = spot->t;
     const Light *source = &t->world->light[light];
@@ -254,17 +260,18 @@ Rgb shadow_walk(const Spot *spot, uint32_t light, const Beam *beam, Rgb colour, 
     if (source->projected_through != 0) {
         Hit hit;
         if (!item_nearest(t->world, source->projected_through - 1, &ray, &hit))
-            return rgb_grey(0);
+            return darkened(beam);
         if (source->def->shadowless)
-            return colour;
+            return true;
         ray.t_max = hit.t * LIGHT_END;         /* only what stands on this side of the projecting surface counts */
     }
     if (among == NULL && still_hidden(t, light, &ray))
-        return rgb_grey(0);
+        return darkened(beam);
     Veils veils;                               /* not cleared: its hits are many */
     if (!find_veils(t, &ray, light, among, &veils))
-        return rgb_grey(0);
+        return darkened(beam);
     if (veils.n == 0 && !shadow_dims(t, source))
-        return colour;
-    return pass_veils(spot, light, among, &ray, &veils, colour);
+        return true;
+    beam->colour = pass_veils(spot, light, among, &ray, &veils, beam->colour);
+    return !is_dark(beam->colour);
 }
