@@ -166,9 +166,9 @@ double noise_turbulence(int generator, Vec3 p, int octaves, double omega, double
     return kernel->turbulence(generator, &p, octaves, omega, lambda);
 }
 
-Vec3 noise_vector_turbulence(Vec3 p, int octaves, double omega, double lambda)
+Vec3 noise_vector_turbulence(const Vec3 *p, int octaves, double omega, double lambda)
 {
-    return kernel->vector_turbulence(&p, octaves, omega, lambda);
+    return kernel->vector_turbulence(p, octaves, omega, lambda);
 }
 
 bool noise_two_nearest(const NoiseCube *cube, const Vec3 *p, double square[2])

@@ -6,6 +6,8 @@
  *
  * The octaves of a turbulence do not depend on each other, but one octave alone fills the processor's window. So first all
  * points find their cells (Spot), then all sums are made: each of the two steps is short enough for several to overlap. */
+#include <string.h>
+
 #include "base/cpu.h"
 #include "math/noise_tables.h"
 
@@ -149,12 +151,28 @@ static inline Pair spot_noise(const Spot *spot)
     return halves(sum);
 }
 
-static inline Vec3 spot_vector(const Spot *spot)
+typedef struct PairAndOne { Pair xy; double z; } PairAndOne;
+
+static inline PairAndOne vector_of(Quad dx, Quad dy, Quad dz)
+{
+    Pair x = halves(dx), y = halves(dy), z = halves(dz);
+    return (PairAndOne){ (Pair){ x[0], y[0] } + (Pair){ x[1], y[1] }, z[0] + z[1] };
+}
+
+/* Stored as it will be loaded: in two parts. */
+static inline Vec3 vector_stored(PairAndOne v)
+{
+    Vec3 out;
+    memcpy(&out, &v.xy, sizeof v.xy);
+    out.z = v.z;
+    return out;
+}
+
+static inline PairAndOne spot_vector(const Spot *spot)
 {
     Quad dx = { 0 }, dy = { 0 }, dz = { 0 };
     FOR_CORNERS(spot, dx += factors * load(table); dy += factors * load(table + 4); dz += factors * load(table + 8);)
-    Pair x = halves(dx), y = halves(dy), z = halves(dz);
-    return vec3(x[0] + x[1], y[0] + y[1], z[0] + z[1]);
+    return vector_of(dx, dy, dz);
 }
 
 /* ---- generator 3 ---- */
@@ -307,15 +325,15 @@ static double turbulence(int generator, const Vec3 *p, int n, double omega, doub
     return sum;
 }
 
-static inline Vec3 vector_at(Vec3 p)
+static inline PairAndOne vector_at(Vec3 p)
 {
     Spot spot;
-    return spot_of(&spot, p) ? spot_vector(&spot) : vec3(0, 0, 0);
+    return spot_of(&spot, p) ? spot_vector(&spot) : (PairAndOne){ { 0 }, 0 };
 }
 
 static Vec3 vector(const Vec3 *p)
 {
-    return vector_at(*p);
+    return vector_stored(vector_at(*p));
 }
 
 static void vector_octaves(const Vec3 *p, double first, double step, int n, Vec3 *out)
@@ -323,10 +341,10 @@ static void vector_octaves(const Vec3 *p, double first, double step, int n, Vec3
     Spot spot[MAX_OCTAVES];
     if (spots_set(spot, *p, first, step, n))
         for (int k = 0; k < n; k++)
-            out[k] = spot_vector(&spot[k]);
+            out[k] = vector_stored(spot_vector(&spot[k]));
     else
         for (int k = 0; k < n; k++, first *= step)
-            out[k] = vector_at(scaled(*p, first));
+            out[k] = vector_stored(vector_at(scaled(*p, first)));
 }
 
 static Vec3 vector_turbulence(const Vec3 *p, int n, double omega, double lambda)
@@ -334,10 +352,13 @@ static Vec3 vector_turbulence(const Vec3 *p, int n, double omega, double lambda)
     Spot spot[MAX_OCTAVES];
     double weight = omega, scale = lambda;
     bool near = spots_set(spot, *p, 1, lambda, n);
-    Vec3 sum = near ? spot_vector(&spot[0]) : vector_at(*p);
-    for (int k = 1; k < n; k++, weight *= omega, scale *= lambda)
-        sum = add(sum, scaled(near ? spot_vector(&spot[k]) : vector_at(scaled(*p, scale)), weight));
-    return sum;
+    PairAndOne sum = near ? spot_vector(&spot[0]) : vector_at(*p);
+    for (int k = 1; k < n; k++, weight *= omega, scale *= lambda) {
+        PairAndOne v = near ? spot_vector(&spot[k]) : vector_at(scaled(*p, scale));
+        sum.xy += v.xy * weight;
+        sum.z += v.z * weight;
+    }
+    return vector_stored(sum);
 }
 
 /* ---- random points ---- */

@@ -3,11 +3,19 @@
 #include "pattern/pattern.h"
 #include "pattern/wave.h"
 
-static Vec3 turbulent(const Turbulence *t, Vec3 p)
+/* Points go by their addresses: a pair of numbers just stored one by one cannot be loaded as one soon. */
+static inline void turbulence_apply(const Turbulence *t, Vec3 *p)
 {
     if (t->amount.x == 0 && t->amount.y == 0 && t->amount.z == 0)
-        return p;
-    return add(p, mul(t->amount, noise_vector_turbulence(p, t->octaves, (double)t->omega, (double)t->lambda)));
+        return;
+    Vec3 v = noise_vector_turbulence(p, t->octaves, (double)t->omega, (double)t->lambda);
+    *p = add(*p, mul(t->amount, v));
+}
+
+static Vec3 turbulent(const Turbulence *t, Vec3 p)
+{
+    turbulence_apply(t, &p);
+    return p;
 }
 
 static Vec3 repeat(const Warp *w, Vec3 p)
@@ -170,7 +178,9 @@ Vec3 chain_apply(const WarpChain *chain, bool turbulence, Vec3 p)
         const Warp *w = &chain->warp[i];
         p = w->kind == WARP_TRANSFORM ? affine_point_back(&w->transform, p) : warped(w, p);
     }
-    return within_limits(turbulence && chain->has_turbulence ? turbulent(&chain->turbulence, p) : p);
+    if (turbulence && chain->has_turbulence)
+        turbulence_apply(&chain->turbulence, &p);
+    return within_limits(p);
 }
 
 /* Warp by warp: what each one needs is loaded once for all points. */

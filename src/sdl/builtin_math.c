@@ -316,7 +316,7 @@ static Vec3 turbulence(Parser *p)
     int octaves = int32(expr_float(p));
     parse_comma(p);
     Vec3 at = vector(p);
-    return noise_vector_turbulence(at, octaves < 1 ? 1 : octaves > 10 ? 10 : octaves, omega, lambda);
+    return noise_vector_turbulence(&at, octaves < 1 ? 1 : octaves > 10 ? 10 : octaves, omega, lambda);
 }
 
 /* Where a ray meets the object and the normal there; both 0 if it does not. */

@@ -55,7 +55,7 @@ static void every_measured_vector_noise_and_turbulence_is_met(void **state)
     while (csv_next(&c)) {
         Vec3 p = vec3(csv_number(&c, 3), csv_number(&c, 4), csv_number(&c, 5));
         int octaves = (int)csv_number(&c, 2);
-        Vec3 got = noise_vector_turbulence(p, octaves, (float)csv_number(&c, 1), (float)csv_number(&c, 0));
+        Vec3 got = noise_vector_turbulence(&p, octaves, (float)csv_number(&c, 1), (float)csv_number(&c, 0));
         Vec3 want = vec3(csv_number(&c, 6), csv_number(&c, 7), csv_number(&c, 8));
         if (max_abs(sub(got, want)) > 4e-12)
             fail_msg("line %d: %.13f %.13f %.13f", c.line, got.x, got.y, got.z);
