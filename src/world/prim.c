@@ -25,6 +25,8 @@ typedef struct Search {
     HitVisit *visit;                           /* each hit goes here; NULL: keep the nearest */
     void *user;
     Hit *hit;                                  /* the nearest, if found; the one being visited */
+    uint32_t bound;                            /* the BOUND node asked last; 0: none yet */
+    bool bound_met;
     const Affine *place;                       /* where `local` is the ray; NULL: nowhere yet */
     Ray local;
 } Search;
@@ -125,19 +127,26 @@ static bool ray_meets_bounds(const World *w, const CsgNode *node, const Ray *ray
     for (uint32_t i = 1; i < node->n; i++) {
         uint32_t item = w->csg_child[node->first + i];
         Hit hit;
-        if (!item_inside(w, item, ray->o) && !item_nearest(w, item, &ahead, &hit))
+        if (!item_nearest(w, item, &ahead, &hit) && !item_inside(w, item, ray->o))
             return false;
     }
     return true;
 }
 
-/* Does the ray meet all bounds above the prim? Asked once, before its roots are sought. */
-static __attribute__((noinline)) bool bounds_let_through(const Search *search, uint32_t csg)
+/* Does the ray meet all bounds above the prim? Asked before its roots are sought; neighbours often have the same bound. */
+static __attribute__((noinline)) bool bounds_let_through(Search *search, uint32_t csg)
 {
     const World *w = search->world;
-    for (uint32_t c = csg; c != search->above; c = w->csg[c].parent)
-        if ((w->csg[c].flags & CSG_BOUND) && !ray_meets_bounds(w, &w->csg[c], search->ray))
+    for (uint32_t c = csg; c != search->above; c = w->csg[c].parent) {
+        if (!(w->csg[c].flags & CSG_BOUND))
+            continue;
+        if (search->bound != c) {
+            search->bound_met = ray_meets_bounds(w, &w->csg[c], search->ray);
+            search->bound = c;
+        }
+        if (!search->bound_met)
             return false;
+    }
     return true;
 }
 
@@ -254,7 +263,7 @@ static inline void search_start(Search *search, const World *w, const Ray *ray, 
     search->sink = (HitSink){ ray->t_min, ray->t_max };
     search->found = search->stop = false;
     search->skip = skip;
-    search->above = 0;
+    search->above = search->bound = 0;
     search->world = w;
     search->ray = ray;
     search->visit = NULL;
