@@ -39,6 +39,12 @@ static inline Vec3 camera_parallel_origin(const Camera *c, double u, double v)
     return camera_blend(c->def->location, 1, c->def->right, u, c->def->up, v);
 }
 
+/* Of a perspective camera. */
+static inline Vec3 camera_direction(const Camera *c, double u, double v)
+{
+    return camera_blend(c->def->direction, 1, c->def->right, u, c->def->up, v);
+}
+
 /* x, y: whole numbers are pixel centres. False: nothing is seen there. Not for mesh cameras. */
 static inline bool camera_ray(const Camera *c, double x, double y, CameraRay *out)
 {
@@ -48,7 +54,7 @@ static inline bool camera_ray(const Camera *c, double x, double y, CameraRay *ou
     double u = out->work.u, v = out->work.v;
     if (def->kind != CAMERA_PERSPECTIVE)
         return camera_bent_ray(c, u, v, out);
-    out->d = camera_blend(def->direction, 1, def->right, u, def->up, v);
+    out->d = camera_direction(c, u, v);
     return true;
 }
 

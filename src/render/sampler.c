@@ -6,7 +6,6 @@
 
 /* Kept apart, so that plain rays need not make room for what others do. */
 #define ALONE __attribute__((noinline))
-#define INLINE inline __attribute__((always_inline))
 
 static const Colour NOTHING = { 0, 0, 0, 0, 1 };       /* where no ray goes */
 
@@ -57,7 +56,9 @@ Sampling *sampling_new(Arena *arena, const World *w, const RenderOptions *option
     s->blur = blur_new(arena, &w->camera);
     s->moves = camera_moves(&w->camera);
     s->home = s->moves ? home_of(s) : NOWHERE;
-    s->parallel = w->camera.kind == CAMERA_ORTHOGRAPHIC && s->blur == NULL && w->camera.normal == NULL;
+    bool plain = s->blur == NULL && w->camera.normal == NULL;
+    s->pinhole = w->camera.kind == CAMERA_PERSPECTIVE && plain;
+    s->parallel = w->camera.kind == CAMERA_ORTHOGRAPHIC && plain;
     s->across = normalized(cross(w->camera.up, w->camera.direction));
     s->down = normalized(cross(w->camera.direction, s->across));
     s->focus = w->camera.focal_distance / length(w->camera.direction);
@@ -70,9 +71,12 @@ Sampling *sampling_new(Arena *arena, const World *w, const RenderOptions *option
 
 void sampler_init(Sampler *s, Arena *arena, const Sampling *sampling, Radiosity *radiosity)
 {
+    Vec3 eye = scaled(sampling->camera.def->location, sampling->world->unit);
     s->sampling = sampling;
     s->tracer = tracer_new(arena, sampling->tracing, radiosity);
-    tracer_interiors(s->tracer, scaled(sampling->camera.def->location, sampling->world->unit), &s->at_home);
+    s->ray = tracer_eye(s->tracer);
+    *s->ray = (Ray){ eye, sampling->camera.direction, 0, INFINITY };
+    tracer_interiors(s->tracer, eye, &s->at_home);
 }
 
 void sampler_free(Sampler *s)
@@ -85,26 +89,27 @@ bool sampler_took_chances(const Sampler *s)
     return tracer_took_chances(s->tracer);
 }
 
-/* A ray in scene space, d of unit length. */
-static inline Colour shoot_along(Sampler *s, Vec3 from, Vec3 d, double reach)
+/* The ray starts at a place in scene space; its direction is written already. */
+static inline Colour look_from(Sampler *s, Vec3 from)
 {
     const Sampling *all = s->sampling;
-    Vec3 o = scaled(from, all->world->unit);
     const Interiors *around = &s->at_home;
-    if (all->moves && !bounds_contain(all->home, o)) {
-        tracer_interiors(s->tracer, o, &s->elsewhere);
+    s->ray->o = scaled(from, all->world->unit);
+    if (all->moves && !bounds_contain(all->home, s->ray->o)) {
+        tracer_interiors(s->tracer, s->ray->o, &s->elsewhere);
         around = &s->elsewhere;
     }
-    return tracer_camera_ray(s->tracer, o, d, reach, around);
+    return tracer_look(s->tracer, around);
 }
 
-INLINE static Colour shoot(Sampler *s, const CameraRay *ray, double reach)
+static inline Colour shoot(Sampler *s, const CameraRay *ray)
 {
     Vec3 d = normalized(ray->d);
     const Normal *normal = s->sampling->camera.def->normal;
     if (normal != NULL)
         d = normalized(normal_perturb(normal, vec3(ray->work.u, ray->work.v, 0), d, NULL));
-    return shoot_along(s, ray->o, d, reach);
+    s->ray->d = d;
+    return look_from(s, ray->o);
 }
 
 /* ---- focal blur ---- */
@@ -163,7 +168,7 @@ ALONE static Colour blurred(Sampler *s, double x, double y)
         for (; m < end && m < blur->n; m++) {
             CameraRay ray;
             if (blur_ray(s->sampling, x, y, seed, m, &ray)) {
-                Colour c = shoot(s, &ray, INFINITY);
+                Colour c = shoot(s, &ray);
                 sum = colour_add(sum, c);
                 moments_add(&moments, c);
             } else {
@@ -185,26 +190,35 @@ ALONE static Colour through_mesh(Sampler *s, double x, double y)
     float n = 0;
     for (int k = 0; k < mesh_camera_rays(mesh); k++) {
         CameraRay ray;
-        double reach;
-        if (!mesh_camera_ray(mesh, x, y, k, &ray, &reach))
+        if (!mesh_camera_ray(mesh, x, y, k, &ray, &s->ray->t_max))
             continue;
-        sum = colour_add(sum, shoot(s, &ray, reach));
+        sum = colour_add(sum, shoot(s, &ray));
         n++;
     }
     return n > 0 ? colour_scaled(sum, 1 / n) : NOTHING;
 }
 
+ALONE static Colour bent(Sampler *s, double x, double y)
+{
+    CameraRay ray;
+    return camera_ray(&s->sampling->camera, x, y, &ray) ? shoot(s, &ray) : NOTHING;
+}
+
+/* For the plainest cameras half of the ray is written once and for all: where it starts, or where it leads. */
 Colour sampler_colour(Sampler *s, double x, double y)
 {
-    const Camera *camera = &s->sampling->camera;
-    if (s->sampling->parallel) {
+    const Sampling *all = s->sampling;
+    const Camera *camera = &all->camera;
+    if (all->pinhole) {
         Vec2 at = camera_place(camera, x, y);
-        return shoot_along(s, camera_parallel_origin(camera, at.u, at.v), camera->direction, INFINITY);
+        s->ray->d = normalized(camera_direction(camera, at.u, at.v));
+        return tracer_look(s->tracer, &s->at_home);
     }
-    if (s->sampling->mesh != NULL)
+    if (all->parallel) {
+        Vec2 at = camera_place(camera, x, y);
+        return look_from(s, camera_parallel_origin(camera, at.u, at.v));
+    }
+    if (all->mesh != NULL)
         return through_mesh(s, x, y);
-    if (s->sampling->blur != NULL)
-        return blurred(s, x, y);
-    CameraRay ray;
-    return camera_ray(camera, x, y, &ray) ? shoot(s, &ray, INFINITY) : NOTHING;
+    return all->blur != NULL ? blurred(s, x, y) : bent(s, x, y);
 }

@@ -22,12 +22,14 @@ typedef struct Sampling {
     double focus;                              /* distance of what is sharp, in lengths of the camera's direction */
     Bounds home;                               /* rays from here start in the same bodies; empty: nothing is known */
     bool moves;                                /* rays may start elsewhere */
+    bool pinhole;                              /* rays all start at the camera's location, one for each sample */
     bool parallel;                             /* rays all lead along the camera's direction, one for each sample */
 } Sampling;
 
 typedef struct Sampler {
     const Sampling *sampling;
     Tracer *tracer;
+    Ray *ray;                                  /* of the tracer's eye */
     Interiors at_home, elsewhere;              /* the bodies around the eye */
 } Sampler;
 

@@ -39,13 +39,16 @@ enum {                                         /* what a light takes, at the qua
     LAMP_AREA = 4,                             /* from many places */
     LAMP_AREA_LIGHT = 8,                       /* and lights from them, too */
     LAMP_SHINES = 16,                          /* in highlights */
-    LAMP_REMEMBERED = 32                       /* its shadow, for all layers of a hit */
+    LAMP_REMEMBERED = 32,                      /* its shadow, for all layers of a hit */
+    LAMPS_ALL = 63,
+    LAMPS_GATHERED = LAMPS_ALL & ~(LAMP_AREA | LAMP_AREA_LIGHT | LAMP_SHINES)  /* area lights as points, no highlights */
 };
 
 typedef struct Ticket {                        /* limits of a ray and of all that comes from it */
     double adc_bailout;
     int max_level;
     int bounces;                               /* of diffuse light: how many gathering rays stand behind it */
+    unsigned lamps;                            /* LAMP_* that count for it */
 } Ticket;
 
 /* A finish at work: one layer of a leaf. */
@@ -101,21 +104,6 @@ typedef struct MediaSpan { double from, to; bool lit; } MediaSpan;
 
 typedef struct AreaSample { Rgb colour; uint32_t stamp; } AreaSample;
 
-struct Tracer {
-    const Tracing *tracing;
-    const World *world;
-    Streams chance;
-    uint32_t *last_blocker;                    /* per light: prim + 1 that hid it last; 0 none */
-    AreaSample *area;                          /* samples of the area light in work; valid if stamp is area_stamp */
-    uint32_t area_stamp;
-    LightSpan *light_span;                     /* n_lights */
-    MediaSpan *media_span;                     /* 2 n_lights + 1 */
-    int nesting;
-    double depth;                              /* how far the path went that was traced last */
-    Gather *gather;                            /* NULL: no radiosity */
-    bool vain;                                 /* what lights give to camera rays does not matter: only gathering does */
-};
-
 typedef struct Path {
     Ray ray;                                   /* d of unit length (refracted: to rounding) */
     const Interiors *in;
@@ -127,6 +115,22 @@ typedef struct Path {
     bool straight;                             /* continues its parent without a bend: not counted */
     bool alpha;                                /* the background may be seen through */
 } Path;
+
+struct Tracer {
+    const Tracing *tracing;
+    const World *world;
+    Streams chance;
+    uint32_t *last_blocker;                    /* per light: prim + 1 that hid it last; 0 none */
+    AreaSample *area;                          /* samples of the area light in work; valid if stamp is area_stamp */
+    uint32_t area_stamp;
+    LightSpan *light_span;                     /* n_lights */
+    MediaSpan *media_span;                     /* 2 n_lights + 1 */
+    int nesting;
+    Path eye;                                  /* of the camera */
+    double depth;                              /* how far the path went that was traced last */
+    Gather *gather;                            /* NULL: no radiosity */
+    bool vain;                                 /* what lights give to camera rays does not matter: only gathering does */
+};
 
 /* A place that light reaches: on a surface, or in the air (surface NULL). */
 typedef struct Spot {

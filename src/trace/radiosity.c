@@ -340,7 +340,7 @@ static Vec3 gather(const Shade *s, Vec3 n, Vec3 raw)
     const RadiosityDef *def = g->radiosity->def;
     int bounces = s->path->ticket->bounces, rays = (int)fmax(5, floor(def->count * ldexp(1, -bounces)));
     int level = (int)(1.5 * (bounces + 1));
-    Ticket ticket = { .adc_bailout = (double)def->adc_bailout, .bounces = bounces + 1,
+    Ticket ticket = { .adc_bailout = (double)def->adc_bailout, .bounces = bounces + 1, .lamps = LAMPS_GATHERED,
                       .max_level = t->tracing->max_level > level + 1 ? t->tracing->max_level : level + 1 };
     double weight = fmax(ticket.adc_bailout + TINY, pow(0.5 * (double)def->brightness, bounces + 1));
     Gathering all = { .nearest_t = FAR_AWAY, .nearest = n };

@@ -211,7 +211,7 @@ const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha
     tracing->wants_uv = world_wants_uv(w);
     tracing->to_scene = 1 / w->unit;
     tracing->max_level = w->globals.max_trace_level < 1 ? 1 : w->globals.max_trace_level;
-    tracing->ticket = (Ticket){ .adc_bailout = w->globals.adc_bailout, .max_level = tracing->max_level };
+    tracing->ticket = (Ticket){ .adc_bailout = w->globals.adc_bailout, .max_level = tracing->max_level, .lamps = LAMPS_ALL };
     tracing->radiosity = w->globals.radiosity.on && quality >= 9;
     tracing->ambient_light = tracing->radiosity && !tracing->legacy ? rgb_grey(0) : w->globals.ambient_light;
     tracing->coat = coats_new(arena, tracing, w);
@@ -241,6 +241,7 @@ Tracer *tracer_new(Arena *arena, const Tracing *tracing, Radiosity *radiosity)
     t->light_span = arena_array(arena, LightSpan, t->world->n_lights + 1);
     t->media_span = arena_array(arena, MediaSpan, 2 * (size_t)t->world->n_lights + 1);
     t->gather = gather_new(arena, radiosity);
+    t->eye = (Path){ .weight = 1, .ticket = &tracing->ticket, .skip = PRIM_NO_IMAGE, .alpha = tracing->alpha };
     tracer_start_tile(t, 0);
     return t;
 }

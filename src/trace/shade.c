@@ -310,9 +310,6 @@ static void shade_share(Shade *s, uint32_t texture, float weight)
     s->sum = colour_add(before, weight == 1 ? s->sum : colour_scaled(s->sum, weight));
 }
 
-/* Gathering rays take area lights for points, and see no highlights. */
-enum { GATHERED_LAMPS = LAMP_PLAIN | LAMP_SHADED | LAMP_REMEMBERED };
-
 Colour shade_hit(Tracer *t, const Path *path, const Hit *hit, int level)
 {
     const World *w = t->world;
@@ -328,24 +325,23 @@ Colour shade_hit(Tracer *t, const Path *path, const Hit *hit, int level)
     s.surface = &surface;
     s.material = m;
     s.lit_by = &tracing->lit_by[material];
-    s.lamps = path->ticket->bounces > 0 ? GATHERED_LAMPS : ~0u;
+    s.lamps = path->ticket->lamps;
     s.spot = (Spot){ t, surface.p, &surface, path->in };
     const Coat *coat = &tracing->coat[texture];
     if (coat->matte && surface.n_textures == 0) {
         s.lamps &= ~(unsigned)LAMP_REMEMBERED; /* nobody asks again */
-        Rgb light = rgb_add(coat->glow, shade_lights(&s, &coat->layer, &surface.normal));
-        s.sum = colour_of(light, 0, 0);
-    } else {
-        s.interior = m->interior;
-        s.depth = hit->t;
-        s.level = level;
-        s.at.hit = false;
-        s.known = 0;
-        s.sum = (Colour){ 0, 0, 0, 0, 0 };
-        if (surface.n_textures == 0)
-            shade_texture(&s, texture);
-        for (uint32_t i = 0; i < surface.n_textures; i++)
-            shade_share(&s, surface.texture[i].texture != 0 ? surface.texture[i].texture : texture, surface.texture[i].weight);
+        Colour c = colour_of(rgb_add(coat->glow, shade_lights(&s, &coat->layer, &surface.normal)), 0, 0);
+        return tracing->has_media ? media_bodies(t, path, m, hit->t, c) : c;
     }
+    s.interior = m->interior;
+    s.depth = hit->t;
+    s.level = level;
+    s.at.hit = false;
+    s.known = 0;
+    s.sum = (Colour){ 0, 0, 0, 0, 0 };
+    if (surface.n_textures == 0)
+        shade_texture(&s, texture);
+    for (uint32_t i = 0; i < surface.n_textures; i++)
+        shade_share(&s, surface.texture[i].texture != 0 ? surface.texture[i].texture : texture, surface.texture[i].weight);
     return tracing->has_media ? media_bodies(t, path, m, hit->t, s.sum) : s.sum;
 }

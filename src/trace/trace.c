@@ -54,8 +54,13 @@ void tracer_interiors(const Tracer *t, Vec3 p, Interiors *out)
     out->n = world_interiors_at(t->world, p, out->at, INTERIORS_MAX);
 }
 
-Colour tracer_camera_ray(Tracer *t, Vec3 o, Vec3 d, double reach, const Interiors *around)
+Ray *tracer_eye(Tracer *t)
 {
-    Path path = { .ray = { o, d, 0, reach }, .in = around, .weight = 1, .ticket = &t->tracing->ticket, .skip = PRIM_NO_IMAGE, .alpha = t->tracing->alpha };
-    return trace_path(t, &path);
+    return &t->eye.ray;
+}
+
+Colour tracer_look(Tracer *t, const Interiors *around)
+{
+    t->eye.in = around;
+    return trace_path(t, &t->eye);
 }

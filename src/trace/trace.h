@@ -34,7 +34,11 @@ bool tracer_took_chances(const Tracer *t);
 /* The bodies around a point in world space. */
 void tracer_interiors(const Tracer *t, Vec3 p, Interiors *out);
 
-/* A camera ray in world space, d of unit length, nothing beyond `reach` seen. Filter is 0 in the answer. */
-Colour tracer_camera_ray(Tracer *t, Vec3 o, Vec3 d, double reach, const Interiors *around);
+/* The camera's ray, to be written before a look: world space, d of unit length, from t_min 0 (as it is) as far as is seen. It
+ * keeps what it holds: cameras need write only what changes. */
+Ray *tracer_eye(Tracer *t);
+
+/* What it sees, in the bodies around its origin. Filter is 0 in the answer. */
+Colour tracer_look(Tracer *t, const Interiors *around);
 
 #endif

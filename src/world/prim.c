@@ -436,7 +436,9 @@ void world_surface(const World *w, const Ray *ray, const Hit *hit, bool want_uv,
     Vec3 n = out->normal;
     if ((prim->flags & PRIM_FACE) && length2(n) == 1) {
         out->back = dot(n, ray->d) > 0;
-        out->normal = out->geometric = out->back ? negated(n) : n;
+        n = out->back ? negated(n) : n;
+        out->normal = n;
+        out->geometric = n;
     } else {
         Vec3 g;
         carry_normals(place, smooth && !is_zero(out->geometric), world_error, ray, out, &n, &g);
