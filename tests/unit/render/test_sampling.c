@@ -80,6 +80,26 @@ static void focal_blur_is_as_measured(void **state)
     }
 }
 
+/* The location is in none of the spheres. */
+static void parallel_rays_start_in_the_bodies_around_each(void **state)
+{
+    (void)state;
+    WhitOptions o = { .width = 4, .height = 1, .threads = 1 };
+    for (int with = 0; with < 2; with++) {
+        Picture p = picture_of(&o, (const char *[]){ HEAD,
+            "camera { orthographic location -5*z right 4*x up y direction z }",
+            "plane { z, 0 pigment { rgb 1 } finish { ambient 1 diffuse 0 } }",
+            with ? "sphere { <-1.5,0,-5>, 0.6 pigment { rgbt 1 } finish { ambient 0 diffuse 0 } interior { fade_distance 0.3 fade_power 2 } }" : "",
+            NULL });
+        for (int x = 0; x < 4; x++) {
+            double v = with && x == 0 ? 0.2 : 1;           /* 1 / (1 + (0.6 / 0.3)^2) */
+            if (!picture_has(&p, x, 0, (double[]){ v, v, v }, 1e-4))
+                fail_msg("%s sphere", with ? "with a" : "without the");
+        }
+        picture_free(&p);
+    }
+}
+
 /* ---- what must not change a picture ---- */
 
 /* A bit of everything that draws chance, bends rays or measures lengths. */
@@ -217,6 +237,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(antialiasing_is_as_measured),
         cmocka_unit_test(focal_blur_is_as_measured),
+        cmocka_unit_test(parallel_rays_start_in_the_bodies_around_each),
         cmocka_unit_test(threads_leave_no_trace),
         cmocka_unit_test(powers_of_two_scale_exactly),
         cmocka_unit_test(accelerators_do_not_matter),
