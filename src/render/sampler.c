@@ -56,6 +56,8 @@ Sampling *sampling_new(Arena *arena, const World *w, const RenderOptions *option
     s->blur = blur_new(arena, &w->camera);
     s->moves = camera_moves(&w->camera);
     s->home = s->moves ? home_of(s) : NOWHERE;
+    if (s->blur != NULL && s->home.lo.x <= s->home.hi.x)
+        s->moves = false;                      /* no ray starts outside the aperture */
     bool plain = s->blur == NULL && w->camera.normal == NULL;
     s->pinhole = w->camera.kind == CAMERA_PERSPECTIVE && plain;
     s->parallel = w->camera.kind == CAMERA_ORTHOGRAPHIC && plain;
@@ -114,15 +116,20 @@ static inline Colour shoot(Sampler *s, const CameraRay *ray)
 
 /* ---- focal blur ---- */
 
-typedef struct Moments { double sum[4], square[4]; } Moments;  /* red, green, blue, transmit */
+typedef double Quad __attribute__((vector_size(32)));      /* red, green, blue, transmit */
+typedef struct Moments { Quad sum, square; } Moments;
 
-static void moments_add(Moments *m, Colour c)
+/* The fourth is transmit: filter is 0. */
+static inline Rgb four_of(Colour c)
 {
-    double v[4] = { (double)c.r, (double)c.g, (double)c.b, (double)c.t };
-    for (int i = 0; i < 4; i++) {
-        m->sum[i] += v[i];
-        m->square[i] += v[i] * v[i];
-    }
+    return (Rgb){ c.r, c.g, c.b, c.t };
+}
+
+static inline void moments_add(Moments *m, Rgb c)
+{
+    Quad v = __builtin_convertvector(c, Quad);
+    m->sum += v;
+    m->square += v * v;
 }
 
 static bool moments_settled(const Moments *m, uint32_t n, double threshold)
@@ -136,22 +143,44 @@ static bool moments_settled(const Moments *m, uint32_t n, double threshold)
 }
 
 /* POV: all rays start near the location, those of orthographic cameras too. */
-static bool blur_ray(const Sampling *all, double x, double y, int seed, uint32_t m, CameraRay *ray)
+static inline Vec3 blur_eye(const Sampling *all, double x, double y, uint32_t m)
 {
     const Blur *blur = all->blur;
+    Vec2 k = position_jitter(&all->hash, x + 0.5, y - 0.5);
+    double ex = all->radius * (blur->place[m].u + 2 * blur->jitter * k.u);
+    double ey = all->radius * (blur->place[m].v + 2 * blur->jitter * k.v);
+    return sub(scaled(all->across, ex), scaled(all->down, ey));
+}
+
+ALONE static bool blur_bent(Sampler *s, double x, double y, uint32_t m, Colour *out)
+{
+    const Sampling *all = s->sampling;
+    CameraRay ray;
+    if (!camera_ray(&all->camera, x, y, &ray))
+        return false;
+    Vec3 e = blur_eye(all, x, y, m);
+    ray.o = add(all->camera.def->location, e);
+    ray.d = sub(scaled(ray.d, all->focus), e);
+    *out = shoot(s, &ray);
+    return true;
+}
+
+/* False: nothing is seen there. */
+static inline bool blur_sample(Sampler *s, double x, double y, int seed, uint32_t m, Colour *out)
+{
+    const Sampling *all = s->sampling;
+    const Camera *camera = &all->camera;
     const uint16_t *hash = all->hash.permutation;
     uint32_t at = (uint32_t)seed + m, row = hash[(at + 1) % HASH_SIZE] % 16, column = hash[at % HASH_SIZE] % 16;
     Vec2 within = all->blur_cell[16 * row + column];
     x += within.u;
     y += within.v;
-    if (!camera_ray(&all->camera, x, y, ray))
-        return false;
-    Vec2 k = position_jitter(&all->hash, x + 0.5, y - 0.5);
-    double ex = all->radius * (blur->place[m].u + 2 * blur->jitter * k.u);
-    double ey = all->radius * (blur->place[m].v + 2 * blur->jitter * k.v);
-    Vec3 e = sub(scaled(all->across, ex), scaled(all->down, ey));
-    ray->o = add(all->camera.def->location, e);
-    ray->d = sub(scaled(ray->d, all->focus), e);
+    if (camera->def->kind != CAMERA_PERSPECTIVE || camera->def->normal != NULL)
+        return blur_bent(s, x, y, m, out);
+    Vec2 place = camera_place(camera, x, y);
+    Vec3 e = blur_eye(all, x, y, m);
+    s->ray->d = normalized(sub(scaled(camera_direction(camera, place.u, place.v), all->focus), e));
+    *out = look_from(s, add(camera->def->location, e));
     return true;
 }
 
@@ -160,25 +189,25 @@ ALONE static Colour blurred(Sampler *s, double x, double y)
     const Blur *blur = s->sampling->blur;
     int seed = (int)(313 * x + 11) + (int)(311 * y + 17);
     Moments moments = { { 0 }, { 0 } };
-    Colour sum = { 0, 0, 0, 0, 0 };
+    Rgb sum = rgb_grey(0);
     const uint8_t *chunk = blur->chunk;
     uint32_t m = 0;
     while (m < blur->n) {
         uint32_t end = m + (*chunk != 0 ? *chunk++ : 4);
         for (; m < end && m < blur->n; m++) {
-            CameraRay ray;
-            if (blur_ray(s->sampling, x, y, seed, m, &ray)) {
-                Colour c = shoot(s, &ray);
-                sum = colour_add(sum, c);
-                moments_add(&moments, c);
+            Colour c;
+            if (blur_sample(s, x, y, seed, m, &c)) {
+                sum = rgb_add(sum, four_of(c));
+                moments_add(&moments, four_of(c));
             } else {
-                moments_add(&moments, NOTHING);
+                moments_add(&moments, four_of(NOTHING));
             }
         }
         if (m >= blur->n_min && moments_settled(&moments, m, blur->threshold[m]))
             break;
     }
-    return colour_scaled(sum, 1 / (float)m);
+    sum = rgb_scaled(sum, 1 / (float)m);
+    return colour_of(sum, 0, sum[3]);
 }
 
 /* ---- mesh cameras ---- */

@@ -76,17 +76,6 @@ void position_hash_fill(PositionHash *h)
         h->jitter[i] = crc_jitter(i);
 }
 
-static float hashed(const PositionHash *h, int a, int b)
-{
-    int first = h->permutation[a & (HASH_SIZE - 1)];
-    return h->jitter[h->permutation[(first ^ b) & (HASH_SIZE - 1)] & 255];
-}
-
-Vec2 position_jitter(const PositionHash *h, double x, double y)
-{
-    return (Vec2){ hashed(h, (int)(1021 * x), (int)(1019 * y)), hashed(h, (int)(1019 * x), (int)(1021 * y)) };
-}
-
 double radical_inverse(uint32_t base, uint32_t i)
 {
     double result = 0, digit = 1.0 / base;

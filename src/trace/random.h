@@ -66,7 +66,17 @@ typedef struct PositionHash {
 } PositionHash;
 
 void position_hash_fill(PositionHash *h);
-Vec2 position_jitter(const PositionHash *h, double x, double y);
+
+static inline double position_hashed(const PositionHash *h, int a, int b)
+{
+    int first = h->permutation[a & (HASH_SIZE - 1)];
+    return (double)h->jitter[h->permutation[(first ^ b) & (HASH_SIZE - 1)] & 255];
+}
+
+static inline Vec2 position_jitter(const PositionHash *h, double x, double y)
+{
+    return (Vec2){ position_hashed(h, (int)(1021 * x), (int)(1019 * y)), position_hashed(h, (int)(1019 * x), (int)(1021 * y)) };
+}
 
 double radical_inverse(uint32_t base, uint32_t i);     /* Halton's sequence in one dimension: h_base(i) */
 
