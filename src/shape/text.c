@@ -284,23 +284,31 @@ static void side_hits(const Glyph *g, uint32_t part, Vec3 o, Vec3 d, double shif
     }
 }
 
+/* A limit of the ray counted from `shift`, moved up or down by more than the rounding of sums with it. */
+static double from_nearest(double t, double shift, double side)
+{
+    return t - shift + side * 4 * DBL_EPSILON * (fabs(t) + fabs(shift));
+}
+
 static void hits(const void *shape, const Ray *ray, HitSink *sink)
 {
     const Glyph *g = shape;
     double shift = shape_nearest_t(ray);
     Vec3 o = ray_at(ray, shift), d = ray->d;
     for (uint32_t i = 0; i < 2 && d.z != 0; i++) {
-        double t = ((i ? g->thickness : 0) - o.z) / d.z;
-        if (curve_inside(&g->outline, o.x + t * d.x, o.y + t * d.y))
-            hit_add(sink, shift + t, g->outline.n + i);
+        double t = ((i ? g->thickness : 0) - o.z) / d.z, at = shift + t;
+        if (at > sink->t_min && at <= sink->limit && curve_inside(&g->outline, o.x + t * d.x, o.y + t * d.y))
+            hit_offer(sink, at, g->outline.n + i, 0, 0);
     }
     if (d.x == 0 && d.y == 0)
         return;
-    /* Over the thickness the ray stays in this box. */
+    /* Over the thickness, as far as hits count, the ray stays in this box. */
     Vec2 lo = { -INFINITY, -INFINITY }, hi = { INFINITY, INFINITY };
     double room = 1e-9 * (1 + fabs(g->thickness));
     if (fabs(d.z) > 1e-6 * (fabs(d.x) + fabs(d.y))) {
-        double t0 = -o.z / d.z, t1 = (g->thickness - o.z) / d.z;
+        double za = -o.z / d.z, zb = (g->thickness - o.z) / d.z;
+        double t0 = greater(lesser(za, zb), from_nearest(sink->t_min, shift, -1));
+        double t1 = lesser(greater(za, zb), from_nearest(sink->limit, shift, 1));
         double xa = o.x + t0 * d.x, xb = o.x + t1 * d.x, ya = o.y + t0 * d.y, yb = o.y + t1 * d.y;
         lo = (Vec2){ lesser(xa, xb) - room, lesser(ya, yb) - room };
         hi = (Vec2){ greater(xa, xb) + room, greater(ya, yb) + room };

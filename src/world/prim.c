@@ -17,8 +17,9 @@ static const double SURFACE_ERROR = 0x1p-39;
 typedef struct Search {
     HitSink sink;                              /* what shapes see; first, so that a sink leads back here */
     bool found, stop;
-    uint32_t prim, csg;                        /* being asked, and the node above it */
+    uint32_t prim;                             /* being asked */
     uint32_t skip;
+    uint32_t csg;                              /* the node above the prim */
     uint32_t above;                            /* climbing ends here: the parent of the item in question, or 0 */
     const World *world;
     const Ray *ray;                            /* in world space */
@@ -233,10 +234,10 @@ static __attribute__((noinline)) const Ray *ray_within(Search *search, const Aff
 static inline void prim_test(Search *search, uint32_t index)
 {
     const Prim *prim = &search->world->prim[index];
-    if ((prim->flags & (search->skip | PRIM_BOUNDED)) && ((prim->flags & search->skip) || !bounds_let_through(search, prim->csg)))
-        return;
     search->prim = index;
     search->csg = prim->csg;
+    if ((prim->flags & (search->skip | PRIM_BOUNDED)) && ((prim->flags & search->skip) || !bounds_let_through(search, prim->csg)))
+        return;
     prim->ops->hits(prim->data, prim->place->identity ? search->ray : ray_within(search, prim->place), &search->sink);
 }
 
