@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <string.h>
 #include <stdint.h>
 
 typedef struct Colour { float r, g, b, f, t; } Colour;     /* red, green, blue, filter, transmit */
@@ -12,7 +13,13 @@ typedef float Rgb __attribute__((vector_size(16)));    /* c[0], c[1], c[2]: red,
 static inline Rgb rgb(float r, float g, float b) { return (Rgb){ r, g, b, 0 }; }
 static inline Rgb rgb_grey(float v) { return (Rgb){ v, v, v, v }; }
 static inline Rgb rgb_of(Colour c) { return (Rgb){ c.r, c.g, c.b, c.f }; }
-static inline Colour colour_of(Rgb c, float f, float t) { return (Colour){ c[0], c[1], c[2], f, t }; }
+static inline Colour colour_of(Rgb c, float f, float t)        /* in one piece, as it will be loaded */
+{
+    Colour out = { .t = t };
+    c[3] = f;
+    memcpy(&out, &c, sizeof c);
+    return out;
+}
 static inline Rgb rgb_add(Rgb a, Rgb b) { return a + b; }
 static inline Rgb rgb_sub(Rgb a, Rgb b) { return a - b; }
 static inline Rgb rgb_mul(Rgb a, Rgb b) { return a * b; }

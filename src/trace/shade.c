@@ -172,11 +172,10 @@ static inline void look_at(Shade *s, const TextureLeaf *leaf, const Texture *tex
         out->n = &out->bumps;
     }
     out->found = true;
-    Colour c = texture_layer_colour(leaf, texture, &s->at, &out->found);
+    out->colour = texture_layer_colour(leaf, texture, &s->at, &out->found);
     if (!out->found && tracing->quality > 1)   /* POV: low quality shows the white that stands for nothing */
-        c = (Colour){ 0, 0, 0, 0, 0 };
-    out->colour = c;
-    out->layer = layer_of(tracing, texture->finish, c);
+        out->colour = (Colour){ 0, 0, 0, 0, 0 };
+    out->layer = layer_of(tracing, texture->finish, out->colour);
 }
 
 static inline float kept(float share)          /* of the light that conserves its energy */
