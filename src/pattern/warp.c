@@ -3,19 +3,12 @@
 #include "pattern/pattern.h"
 #include "pattern/wave.h"
 
-/* Points go by their addresses: a pair of numbers just stored one by one cannot be loaded as one soon. */
-static inline void turbulence_apply(const Turbulence *t, Vec3 *p)
+/* Inline: a pair of numbers just stored one by one cannot be loaded as one soon, as calls with points would have it. */
+static inline __attribute__((always_inline)) Vec3 turbulent(const Turbulence *t, const Vec3 p)
 {
     if (t->amount.x == 0 && t->amount.y == 0 && t->amount.z == 0)
-        return;
-    Vec3 v = noise_vector_turbulence(p, t->octaves, (double)t->omega, (double)t->lambda);
-    *p = add(*p, mul(t->amount, v));
-}
-
-static Vec3 turbulent(const Turbulence *t, Vec3 p)
-{
-    turbulence_apply(t, &p);
-    return p;
+        return p;
+    return add(p, mul(t->amount, noise_vector_turbulence(&p, t->octaves, (double)t->omega, (double)t->lambda)));
 }
 
 static Vec3 repeat(const Warp *w, Vec3 p)
@@ -178,9 +171,7 @@ Vec3 chain_apply(const WarpChain *chain, bool turbulence, Vec3 p)
         const Warp *w = &chain->warp[i];
         p = w->kind == WARP_TRANSFORM ? affine_point_back(&w->transform, p) : warped(w, p);
     }
-    if (turbulence && chain->has_turbulence)
-        turbulence_apply(&chain->turbulence, &p);
-    return within_limits(p);
+    return within_limits(turbulence && chain->has_turbulence ? turbulent(&chain->turbulence, p) : p);
 }
 
 /* Warp by warp: what each one needs is loaded once for all points. */
