@@ -7,6 +7,7 @@
 
 #include <string.h>
 
+#include "base/simd.h"
 #include "world/shaft.h"
 
 /* How far computed points may lie off their surface, relative to the coordinates that went into them: many times the
@@ -394,26 +395,72 @@ static bool is_zero(Vec3 a)
 }
 
 /* The largest number in what was added to make o + t d, times SURFACE_ERROR: rounding errors are relative to it. */
-static double error_at(Vec3 o, Vec3 d, double t)
+static inline double error_at(Vec3 o, Vec3 d, double t)
 {
-    double from = max_abs(o), along = fabs(t) * max_abs(d);
+    d2 most = d2_max(d2_max(d2_abs(d2_of(o.x, d.x)), d2_abs(d2_of(o.y, d.y))), d2_abs(d2_of(o.z, d.z)));
+    double from = d2_low(most), along = fabs(t) * d2_high(most);
     return SURFACE_ERROR * (from > along ? from : along);
 }
 
-/* The same arithmetic with and without a place: one that only scales by a power of two must change no bit. */
-static inline void carry_normals(const Affine *place, bool smooth, double world_error, const Ray *ray, Surface *s, Vec3 *normal, Vec3 *geometric)
+static Vec3 towards_ray(const Affine *place, const Ray *ray)
 {
-    Vec3 raw = is_zero(s->normal) ? negated(affine_vector_back(place, ray->d)) : s->normal;
-    Vec3 n = normalized(raw), across = affine_normal(place, smooth ? normalized(s->geometric) : n);
+    return normalized(negated(affine_vector_back(place, ray->d)));
+}
+
+/* The same arithmetic with and without a place: one that only scales by a power of two must change no bit. Without `smooth` both
+ * normals are one. */
+static inline void carry_normals(const Affine *place, bool smooth, double world_error, const Ray *ray, Surface *s, Vec3 *normal,
+                                 Vec3 *geometric)
+{
+    double l = length(s->normal);
+    Vec3 n = l > 0 ? scaled(s->normal, 1 / l) : is_zero(s->normal) ? towards_ray(place, ray) : s->normal;
+    Vec3 across = affine_normal(place, smooth ? normalized(s->geometric) : n);
     double stretch = length(across), error = s->error / stretch;
     s->error = error > world_error ? error : world_error;  /* planes a apart become planes a / |across| apart */
     *geometric = stretch > 0 ? scaled(across, 1 / stretch) : across;
     *normal = smooth ? normalized(affine_normal(place, n)) : *geometric;
 }
 
-void world_surface(const World *w, const Ray *ray, const Hit *hit, bool want_uv, Surface *out)
+static inline void turn_to_ray(Surface *s, Vec3 n, Vec3 d)
 {
-    const Prim *prim = &w->prim[hit->prim];
+    s->back = dot(n, d) > 0;
+    n = s->back ? negated(n) : n;
+    s->normal = n;
+    s->geometric = n;
+}
+
+#define ALONE __attribute__((noinline))
+
+static inline void surface_start(Surface *s, const ShapeOps *ops, bool want_uv)
+{
+    s->uv = (Vec2){ 0, 0 };
+    s->want_uv = want_uv && (ops->flags & SHAPE_HAS_UV);
+    s->n_textures = 0;
+}
+
+static inline void surface_end(Surface *s, const World *w, bool want_uv)
+{
+    if (want_uv && !s->want_uv)
+        s->uv = (Vec2){ s->p.x / w->unit, s->p.y / w->unit };
+    s->want_uv = want_uv;
+}
+
+/* The normal of a face is mostly of length 1 and stays as it is: no need to wait for roots and quotients that are 1. */
+ALONE static void face_surface(const World *w, const Prim *prim, const Ray *ray, const Hit *hit, bool want_uv, Surface *out)
+{
+    surface_start(out, prim->ops, want_uv);
+    out->error = error_at(ray->o, ray->d, hit->t);
+    out->p = ray_at(ray, hit->t);
+    prim->ops->surface(prim->data, hit, out);
+    Vec3 n = out->normal, g;
+    if (length2(n) != 1)
+        carry_normals(prim->place, false, error_at(ray->o, ray->d, hit->t), ray, out, &n, &g);
+    turn_to_ray(out, n, ray->d);
+    surface_end(out, w, want_uv);
+}
+
+ALONE static void placed_surface(const World *w, const Prim *prim, const Ray *ray, const Hit *hit, bool want_uv, Surface *out)
+{
     const ShapeOps *ops = prim->ops;
     const Affine *place = prim->place;
     double world_error = error_at(ray->o, ray->d, hit->t);
@@ -425,37 +472,34 @@ void world_surface(const World *w, const Ray *ray, const Hit *hit, bool want_uv,
         local = add(o, scaled(d, hit->t));
     }
     out->p = local;
-    out->uv = (Vec2){ 0, 0 };
-    out->want_uv = want_uv && (ops->flags & SHAPE_HAS_UV);
-    out->n_textures = 0;
+    surface_start(out, ops, want_uv);
     bool smooth = (ops->flags & SHAPE_SMOOTH) != 0;
     if (smooth)
         out->geometric = vec3(0, 0, 0);
     ops->surface(prim->data, hit, out);
 
-    /* The normal of a face stays as it is: no need to wait for roots and quotients that are 1, nor to turn it twice. */
-    Vec3 n = out->normal;
-    if ((prim->flags & PRIM_FACE) && length2(n) == 1) {
-        out->back = dot(n, ray->d) > 0;
-        n = out->back ? negated(n) : n;
-        out->normal = n;
-        out->geometric = n;
-    } else {
-        Vec3 g;
-        carry_normals(place, smooth && !is_zero(out->geometric), world_error, ray, out, &n, &g);
-        if (!place->identity)
-            out->p = same_point(out->p, local) ? ray_at(ray, hit->t) : affine_apply(place->m, out->p);
-        if ((prim->flags & PRIM_INVERSE) && !(ops->flags & SHAPE_NORMAL_STAYS))
-            n = negated(n);
-        out->back = dot(n, ray->d) > 0;
-        out->normal = out->back ? negated(n) : n;
+    Vec3 n, g;
+    smooth = smooth && !is_zero(out->geometric);
+    carry_normals(place, smooth, world_error, ray, out, &n, &g);
+    if (!place->identity)
+        out->p = same_point(out->p, local) ? ray_at(ray, hit->t) : affine_apply(place->m, out->p);
+    bool turned = (prim->flags & PRIM_INVERSE) && !(ops->flags & SHAPE_NORMAL_STAYS);
+    turn_to_ray(out, turned ? negated(n) : n, ray->d);
+    if (smooth || turned)
         out->geometric = dot(g, ray->d) > 0 ? negated(g) : g;
-        if (w->material[prim->material].flags & MATERIAL_CUTAWAY)
-            cutaway_surface(w, prim, out);
-    }
-    if (want_uv && !out->want_uv)
-        out->uv = (Vec2){ out->p.x / w->unit, out->p.y / w->unit };
-    out->want_uv = want_uv;
+    if (w->material[prim->material].flags & MATERIAL_CUTAWAY)
+        cutaway_surface(w, prim, out);
+    surface_end(out, w, want_uv);
+}
+
+/* Each way by itself, so that the short one need not save what the long one needs. */
+void world_surface(const World *w, const Ray *ray, const Hit *hit, bool want_uv, Surface *out)
+{
+    const Prim *prim = &w->prim[hit->prim];
+    if (prim->flags & PRIM_FACE)
+        face_surface(w, prim, ray, hit, want_uv, out);
+    else
+        placed_surface(w, prim, ray, hit, want_uv, out);
 }
 
 /* ---- bodies around a point ---- */
