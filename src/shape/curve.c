@@ -2,6 +2,7 @@
 #include "shape/curve.h"
 
 #include "math/bernstein.h"
+#include "shape/shape.h"
 
 CurvePiece curve_piece(const Vec2 *p, int degree)
 {
@@ -92,11 +93,49 @@ static bool odd_beyond(const CurvePiece *c, double u, double v)
     return odd;
 }
 
+/* Pieces are named by so many rows at most on average; a curve of tall ones has a single row. */
+enum { ROWS_MAX = 64, ROWS_PER_PIECE = 8 };
+
+/* How often the pieces are named: by row k, and by rows before it, count[k] times. */
+static uint32_t count_rows(const Curve *c, const CurveRows *r, uint32_t *count)
+{
+    for (uint32_t i = 0; i < c->n; i++)
+        for (uint32_t k = curve_row(r, c->piece[i].lo.v); k <= curve_row(r, c->piece[i].hi.v); k++)
+            count[k]++;
+    for (uint32_t k = 1; k <= r->n; k++)
+        count[k] += count[k - 1];
+    return count[r->n];
+}
+
+void curve_sort(Arena *arena, Curve *c)
+{
+    double lo = INFINITY, hi = -INFINITY;
+    for (uint32_t i = 0; i < c->n; i++) {
+        lo = lesser(lo, c->piece[i].lo.v);
+        hi = greater(hi, c->piece[i].hi.v);
+    }
+    CurveRows r = { .lo = lo, .n = c->n < 2 * ROWS_MAX ? c->n / 2 + 1 : ROWS_MAX };
+    r.scale = hi > lo ? r.n / (hi - lo) : 0;
+    uint32_t *first = arena_array(arena, uint32_t, r.n + 1), total = count_rows(c, &r, first);
+    if (total / ROWS_PER_PIECE > c->n) {
+        r.n = 1;
+        first[0] = first[1] = total = c->n;
+    }
+    uint32_t *piece = arena_array(arena, uint32_t, total);
+    for (uint32_t i = c->n; i-- > 0;)          /* from the end of each row to its beginning */
+        for (uint32_t k = curve_row(&r, c->piece[i].lo.v), last = curve_row(&r, c->piece[i].hi.v); k <= last; k++)
+            piece[--first[k]] = i;
+    r.first = first;
+    r.piece = piece;
+    c->rows = r;
+}
+
 bool curve_inside(const Curve *c, double u, double v)
 {
     bool odd = false;
-    for (uint32_t i = 0; i < c->n; i++) {
-        const CurvePiece *piece = &c->piece[i];
+    uint32_t row = curve_row(&c->rows, v);
+    for (uint32_t i = c->rows.first[row]; i < c->rows.first[row + 1]; i++) {
+        const CurvePiece *piece = &c->piece[c->rows.piece[i]];
         if (piece->lo.v <= v && v <= piece->hi.v && u <= piece->hi.u)
             odd ^= odd_beyond(piece, u, v);
     }
@@ -128,12 +167,13 @@ void curve_extent(const CurvePiece *c, Vec2 *lo, Vec2 *hi)
 
 Curve curve_scaled(Arena *arena, Curve c, double by)
 {
-    Curve out = { arena_array(arena, CurvePiece, c.n), c.n };
+    Curve out = { .piece = arena_array(arena, CurvePiece, c.n), .n = c.n };
     for (uint32_t i = 0; i < c.n; i++) {
         Vec2 p[4];
         for (int k = 0; k <= c.piece[i].degree; k++)
             p[k] = (Vec2){ c.piece[i].p[k].u * by, c.piece[i].p[k].v * by };
         out.piece[i] = curve_piece(p, c.piece[i].degree);
     }
+    curve_sort(arena, &out);
     return out;
 }

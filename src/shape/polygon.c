@@ -151,6 +151,8 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
         return;
     Vec3 v = sub(ray->o, g->origin);
     double t = -dot(g->normal, v) / slope;
+    if (!(t > sink->t_min && t <= sink->limit))
+        return;
     Vec3 at = add(v, scaled(ray->d, t));
     double x = dot(at, g->u), y = dot(at, g->v);
     bool in = false;
@@ -162,7 +164,7 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
         in ^= (side >= 0) == (e->y1 >= y);
     }
     if (in)
-        hit_add(sink, t, 0);
+        hit_offer(sink, t, 0, 0, 0);
 }
 
 static void surface(const void *shape, const Hit *hit, Surface *out)

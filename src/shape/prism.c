@@ -143,7 +143,7 @@ static void parse(Parser *p, void *params)
         parse_warn(p, "Prism not closed. Ignoring it.");
         pieces.n = 0;
     }
-    a->curve = (Curve){ pieces.data, pieces.n };
+    a->curve = (Curve){ .piece = pieces.data, .n = pieces.n };
 }
 
 /* A piece swept from h1 to h2. */
@@ -234,9 +234,10 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     l.o = ray_at(ray, l.shift);
     for (uint32_t i = 0; i < 2 && !a->open && l.u.y != 0; i++) {
         double y = i ? a->h2 : a->h1, s = (y - l.o.y) / l.u.y, f = a->conic ? 1 / y : 1;
-        if ((a->conic && y == 0) || !curve_inside(&a->curve, (l.o.x + s * l.u.x) * f, (l.o.z + s * l.u.z) * f))
-            continue;
-        hit_add(sink, l.shift + s / len, a->curve.n + i);
+        double t = l.shift + s / len;
+        bool counts = t > sink->t_min && t <= sink->limit && !(a->conic && y == 0);
+        if (counts && curve_inside(&a->curve, (l.o.x + s * l.u.x) * f, (l.o.z + s * l.u.z) * f))
+            hit_offer(sink, t, a->curve.n + i, 0, 0);
     }
     if (!a->conic && l.u.x == 0 && l.u.z == 0)
         return;

@@ -313,7 +313,11 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
         lo = (Vec2){ lesser(xa, xb) - room, lesser(ya, yb) - room };
         hi = (Vec2){ greater(xa, xb) + room, greater(ya, yb) + room };
     }
-    for (uint32_t i = 0; i < g->outline.n; i++) {
+    const CurveRows *rows = &g->outline.rows;
+    uint32_t row = curve_row(rows, lo.v);
+    bool one = row == curve_row(rows, hi.v);   /* as most often; several rows name their pieces several times */
+    for (uint32_t k = one ? rows->first[row] : 0, end = one ? rows->first[row + 1] : g->outline.n; k < end; k++) {
+        uint32_t i = one ? rows->piece[k] : k;
         const CurvePiece *c = &g->outline.piece[i];
         if (c->lo.u <= hi.u && c->hi.u >= lo.u && c->lo.v <= hi.v && c->hi.v >= lo.v)
             side_hits(g, i, o, d, shift, sink);

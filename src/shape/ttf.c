@@ -205,8 +205,10 @@ TtfGlyph ttf_glyph(const Ttf *t, uint32_t glyph)
         return g;
     g.lo = (Vec2){ t->em * (double)box.xMin, t->em * (double)box.yMin };
     g.hi = (Vec2){ t->em * (double)box.xMax, t->em * (double)box.yMax };
-    if (lib->FT_Outline_Decompose(&face->glyph->outline, &draw, &o) == 0)
-        g.outline = (Curve){ o.pieces.data, o.pieces.n };
+    if (lib->FT_Outline_Decompose(&face->glyph->outline, &draw, &o) == 0) {
+        g.outline = (Curve){ .piece = o.pieces.data, .n = o.pieces.n };
+        curve_sort(t->arena, &g.outline);
+    }
     for (uint32_t i = 0; i < g.outline.n; i++) {
         const CurvePiece *c = &g.outline.piece[i];
         g.lo = (Vec2){ fmin(g.lo.u, c->lo.u), fmin(g.lo.v, c->lo.v) };
