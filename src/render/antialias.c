@@ -86,13 +86,15 @@ static void supersample(Antialias *a, Sampler *s, Pixel *p, int x, int y)
                 shift = position_jitter(&s->sampling->hash, ox, oy);
             sum = colour_add(sum, sampler_colour(s, ox + jitter * shift.u, oy + jitter * shift.v));
         }
-    contrast_see(a->contrast, &p->seen, colour_scaled(sum, 1 / (float)(n * n + 1)));
+    p->seen.colour = colour_scaled(sum, 1 / (float)(n * n + 1));
+    contrast_see(a->contrast, &p->seen);
     p->refined = true;
 }
 
 static void pixel_set(const Antialias *a, Pixel *p, Colour c, bool refined)
 {
-    contrast_see(a->contrast, &p->seen, c);
+    p->seen.colour = c;
+    contrast_see(a->contrast, &p->seen);
     p->refined = refined;
 }
 
@@ -162,7 +164,8 @@ static Seen *fine_pixel(const Subdivision *d, int x, int y)
         double jitter = a->options->jitter / (a->side + 1);
         if (jitter > 0)
             shift = position_jitter(&d->s->sampling->hash, px, py);
-        contrast_see(a->contrast, &a->fine[i], sampler_colour(d->s, px + jitter * shift.u, py + jitter * shift.v));
+        a->fine[i].colour = sampler_colour(d->s, px + jitter * shift.u, py + jitter * shift.v);
+        contrast_see(a->contrast, &a->fine[i]);
     }
     return &a->fine[i];
 }

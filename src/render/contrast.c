@@ -52,43 +52,45 @@ Contrast *contrast_new(Arena *arena, const World *w, const RenderOptions *option
     return c;
 }
 
-static double near_light(const Contrast *c, float value)
+static inline double near_light(const Contrast *c, float value)
 {
     uint32_t bits = float_bits(value), i = (bits >> CHORD_BITS) - CHORD_FIRST;
     if (i >= CHORDS)                           /* also all that is negative or no number */
         return exact_light(c, value);
-    double along = (bits & ((1u << CHORD_BITS) - 1)) * (1.0 / (1u << CHORD_BITS));
+    double along = (int)(bits & ((1u << CHORD_BITS) - 1)) * (1.0 / (1u << CHORD_BITS));
     return c->chord[i] + along * (c->chord[i + 1] - c->chord[i]);
 }
 
-/* a power each: greys need one */
-static void look(const Contrast *c, Seen *s, double light(const Contrast *, float))
+static inline void set_light(Seen *s, double r, double g, double b)
 {
-    float r = s->colour.r, g = s->colour.g, b = s->colour.b;
-    s->light[0] = light(c, r);
-    s->light[1] = g == r ? s->light[0] : light(c, g);
-    s->light[2] = b == g ? s->light[1] : light(c, b);
-    s->sum = s->light[0] + s->light[1] + s->light[2];
+    s->light[0] = r;
+    s->light[1] = g;
+    s->light[2] = b;
+    s->sum = r + g + b;
 }
 
-void contrast_see(const Contrast *c, Seen *s, Colour colour)
+__attribute__((noinline)) static void look_exactly(const Contrast *c, Seen *s)         /* a power each: greys need one */
 {
-    s->colour = colour;
-    s->exact = !c->chords;
-    look(c, s, c->chords ? near_light : exact_light);
+    float r = s->colour.r, g = s->colour.g, b = s->colour.b;
+    double red = exact_light(c, r), green = g == r ? red : exact_light(c, g);
+    set_light(s, red, green, b == g ? green : exact_light(c, b));
+    s->exact = true;
+}
+
+void contrast_see(const Contrast *c, Seen *s)
+{
+    if (!c->chords) {
+        look_exactly(c, s);
+        return;
+    }
+    set_light(s, near_light(c, s->colour.r), near_light(c, s->colour.g), near_light(c, s->colour.b));
+    s->exact = false;
 }
 
 static double distance(const Seen *a, const Seen *b)
 {
     return fabs(a->light[0] - b->light[0]) + fabs(a->light[1] - b->light[1]) + fabs(a->light[2] - b->light[2]) +
            fabs((double)a->colour.t - (double)b->colour.t);
-}
-
-static void look_closely(const Contrast *c, Seen *s)
-{
-    if (!s->exact)
-        look(c, s, exact_light);
-    s->exact = true;
 }
 
 bool contrast_differ(const Contrast *c, Seen *a, Seen *b)
@@ -98,7 +100,9 @@ bool contrast_differ(const Contrast *c, Seen *a, Seen *b)
         return true;
     if (over < -doubt)
         return false;
-    look_closely(c, a);                        /* or not a number */
-    look_closely(c, b);
+    if (!a->exact)                             /* or not a number */
+        look_exactly(c, a);
+    if (!b->exact)
+        look_exactly(c, b);
     return distance(a, b) >= c->threshold;
 }

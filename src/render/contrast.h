@@ -16,7 +16,7 @@ typedef struct Seen {
 /* Asked by one thread at a time. */
 Contrast *contrast_new(Arena *arena, const World *w, const RenderOptions *options);
 
-void contrast_see(const Contrast *c, Seen *s, Colour colour);
+void contrast_see(const Contrast *c, Seen *s);         /* its colour is there already */
 bool contrast_differ(const Contrast *c, Seen *a, Seen *b);
 
 #endif

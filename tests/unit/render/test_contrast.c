@@ -43,8 +43,10 @@ static Contrast *contrast_of(Arena *a, const Setting *s, double threshold)
 static bool differ(const Contrast *c, Colour a, Colour b)
 {
     Seen p, q;
-    contrast_see(c, &p, a);
-    contrast_see(c, &q, b);
+    p.colour = a;
+    q.colour = b;
+    contrast_see(c, &p);
+    contrast_see(c, &q);
     return contrast_differ(c, &p, &q);
 }
 
