@@ -19,6 +19,8 @@ static inline void d2_store(double *p, d2 a) { _mm_storeu_pd(p, a.v); }
 static inline d2 d2_set(double x) { return (d2){ _mm_set1_pd(x) }; }
 static inline d2 d2_of(double low, double high) { return (d2){ _mm_set_pd(high, low) }; }
 static inline d2 d2_abs(d2 a) { return (d2){ _mm_andnot_pd(_mm_set1_pd(-0.0), a.v) }; }
+static inline d2 d2_add(d2 a, d2 b) { return (d2){ _mm_add_pd(a.v, b.v) }; }
+static inline d2 d2_mul(d2 a, d2 b) { return (d2){ _mm_mul_pd(a.v, b.v) }; }
 static inline d2 d2_sub(d2 a, d2 b) { return (d2){ _mm_sub_pd(a.v, b.v) }; }
 static inline d2 d2_div(d2 a, d2 b) { return (d2){ _mm_div_pd(a.v, b.v) }; }
 static inline d2 d2_max(d2 a, d2 b) { return (d2){ _mm_max_pd(a.v, b.v) }; }
@@ -78,6 +80,8 @@ static inline void d2_store(double *p, d2 a) { D2_EACH(p[i] = a.v[i]); }
 static inline d2 d2_set(double x) { d2 r; D2_EACH(r.v[i] = x); return r; }
 static inline d2 d2_of(double low, double high) { return (d2){ { low, high } }; }
 static inline d2 d2_abs(d2 a) { D2_EACH(a.v[i] = fabs(a.v[i])); return a; }
+static inline d2 d2_add(d2 a, d2 b) { D2_EACH(a.v[i] += b.v[i]); return a; }
+static inline d2 d2_mul(d2 a, d2 b) { D2_EACH(a.v[i] *= b.v[i]); return a; }
 static inline d2 d2_sub(d2 a, d2 b) { D2_EACH(a.v[i] -= b.v[i]); return a; }
 static inline d2 d2_div(d2 a, d2 b) { D2_EACH(a.v[i] /= b.v[i]); return a; }
 static inline d2 d2_max(d2 a, d2 b) { D2_EACH(a.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i]); return a; }
