@@ -231,6 +231,12 @@ static void short_ways_lead_to_the_same_bytes(void **state)
           "rgb <.45,.4,.35> fade_distance 1e300 fade_power 2 } plane { z, 0 pigment { rgb <.5,.8,.3> }" },
         { "rgb 1 } plane { z, 0 pigment { rgb .5 } finish { specular .9 roughness .002 }",
           "rgb 1 } plane { z, 0 pigment { rgb .5 } finish { specular .9 roughness .002 phong 1e-30 phong_size 1 }" },
+        { "rgb 1 } light_group { light_source { <-2,1,-3> rgb .3 } plane { z, 0 pigment { rgb .5 } } global_lights on",
+          "rgb 1 } light_source { <-2,1,-3> rgb .3 } plane { z, 0 pigment { rgb .5 }" },
+        { "rgb 1 } light_group { light_source { <-2,1,-3> rgb .3 } plane { z, 0 pigment { rgb .5 } } global_lights off",
+          "rgb 0 } light_source { <-2,1,-3> rgb .3 } plane { z, 0 pigment { rgb .5 }" },
+        { "rgb 1 } plane { <1,2,-9>, 0 pigment { rgb .5 }",                               /* a face, and one that is carried */
+          "rgb 1 } plane { <-1,-2,9>, 0 inverse pigment { rgb .5 }" },
         { "rgb 1 } plane { z, 0 pigment { rgb .5 } } box { <-2,-2,-.2>, <0,2,-.1> pigment { rgbf <.9,.5,.2,.6> }",
           "rgb 1 } plane { z, 0 pigment { rgb .5 } } box { <-2,-2,-.2>, <0,2,-.1> pigment { rgbf <.9,.5,.2,.6> quick_colour rgb 1 }" },
     };
