@@ -20,27 +20,6 @@
 
 enum { MAX = ROOTS_MAX_DEGREE, DEPTH = 56, BUDGET = 4096 };
 
-int roots_quadratic(double a, double h, double c, double root[2])
-{
-    if (a == 0) {
-        if (h == 0)
-            return 0;
-        root[0] = -c / (2 * h);
-        return 1;
-    }
-    double d = h * h - a * c;
-    if (d < 0)
-        return 0;
-    if (d == 0) {
-        root[0] = -h / a;
-        return 1;
-    }
-    double q = -(h + copysign(sqrt(d), h)), r0 = q / a, r1 = c / q;
-    root[0] = r0 < r1 ? r0 : r1;               /* fmin would be a call */
-    root[1] = r0 < r1 ? r1 : r0;
-    return 2;
-}
-
 typedef struct Search {
     double a[MAX + 1];                         /* on [0, 1], power basis */
     int n;
