@@ -66,6 +66,8 @@ typedef struct Coat {
     Rgb glow;
 } Coat;
 
+typedef struct Backdrop { Rgb light, through; } Backdrop;      /* a background: what it sends, what passes through it */
+
 typedef struct LightList { const uint32_t *light; uint32_t n; } LightList;     /* in World.light */
 
 typedef struct Gather Gather;                  /* radiosity.c: what one tracer has gathered */
@@ -79,6 +81,7 @@ struct Tracing {
     bool plain_sky;                            /* the same all round: */
     Colour sky[2];                             /* not seen through, and seen through */
     Colour background;                         /* as the sky shows it */
+    Backdrop backdrop[2];                      /* the same for skies from 3.7 on: not seen through, and seen through */
     bool wants_uv;                             /* some texture or object maps by uv */
     double to_scene;                           /* 1 / world->unit */
     Ticket ticket;                             /* of camera rays */
@@ -268,6 +271,7 @@ Rgb media_dims_air(Tracer *t, Vec3 o, Vec3 d, double depth);           /* what e
 Rgb media_dims_bodies(Tracer *t, const Interiors *in, Vec3 o, Vec3 d, double depth);
 
 /* sky.c */
+Backdrop backdrop_of(Colour background, bool alpha);
 Colour sky_colour(const Tracing *tracing, Vec3 d, bool alpha);
 
 /* fog.c: distances and points in world units. */

@@ -205,6 +205,8 @@ const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha
     tracing->alpha = alpha;
     tracing->legacy = w->globals.version < 370;
     tracing->background = background_of(w, alpha, tracing->legacy);
+    for (int through = 0; through < 2; through++)
+        tracing->backdrop[through] = backdrop_of(tracing->background, through == 1);
     tracing->plain_sky = w->scene->sky_sphere == NULL;
     for (int through = 0; tracing->plain_sky && through < 2; through++)
         tracing->sky[through] = sky_colour(tracing, vec3(0, 0, 1), through == 1);

@@ -3,11 +3,19 @@
 
 static float clamped_grey(Rgb filter)
 {
-    return fminf(1, fabsf(rgb_greyness(filter)));
+    float grey = fabsf(rgb_greyness(filter));
+    return grey < 1 ? grey : 1;
+}
+
+Backdrop backdrop_of(Colour background, bool alpha)
+{
+    if (!alpha)
+        background.f = background.t = 0;
+    return (Backdrop){ rgb_scaled(rgb_of(background), 1 - background.f - background.t), colour_transmittance(background) };
 }
 
 /* From 3.7 on the pigments of a sky sphere lie over each other, and over the background, like the layers of a texture. */
-static Colour layered_sky(const SkySphere *sky, Vec3 p, Colour background)
+static Colour layered_sky(const SkySphere *sky, Vec3 p, const Backdrop *background)
 {
     Rgb sum = rgb_grey(0), filter = rgb_grey(1);
     for (uint32_t i = sky != NULL ? sky->n : 0; i-- > 0;) {
@@ -16,8 +24,8 @@ static Colour layered_sky(const SkySphere *sky, Vec3 p, Colour background)
         sum = rgb_add(sum, rgb_mul(lit, sky->emission));
         filter = rgb_mul(filter, colour_transmittance(c));
     }
-    sum = rgb_add(sum, rgb_mul(rgb_scaled(rgb_of(background), 1 - background.f - background.t), filter));
-    filter = rgb_mul(filter, colour_transmittance(background));
+    sum = rgb_add(sum, rgb_mul(background->light, filter));
+    filter = rgb_mul(filter, background->through);
     return colour_of(sum, 0, clamped_grey(filter));
 }
 
@@ -44,10 +52,7 @@ Colour sky_colour(const Tracing *tracing, Vec3 d, bool alpha)
         return (Colour){ 0, 0, 0, 0, 1 };
     const SkySphere *sky = tracing->world->scene->sky_sphere;
     Vec3 p = sky != NULL ? affine_point_back(&sky->place, d) : d;
-    Colour background = tracing->background;
     if (tracing->legacy)
-        return sky != NULL && sky->n > 0 ? legacy_sky(sky, p, background) : background;
-    if (!alpha)
-        background.f = background.t = 0;
-    return layered_sky(sky, p, background);
+        return sky != NULL && sky->n > 0 ? legacy_sky(sky, p, tracing->background) : tracing->background;
+    return layered_sky(sky, p, &tracing->backdrop[alpha]);
 }
