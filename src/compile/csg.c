@@ -8,6 +8,9 @@
 
 enum { LISTED_MAX = 8 };                       /* from so many children on, a tree answers "who is around this point?" */
 
+/* What sums of products along three axes may be off by, and more. */
+static const double ASKEW = 0x1p-48;
+
 Reach item_reach(const Compile *c, uint32_t item)
 {
     if (is_node(item)) {
@@ -37,19 +40,66 @@ Bounds item_hull(const Compile *c, uint32_t item)
     return hull;
 }
 
-bool item_holds(const Compile *c, uint32_t item, Bounds box)
+/* ---- bounds that hold all of a body ---- */
+
+/* The box of a prim along the axes of a space that lies askew to the world's. */
+static Bounds prim_hull_in(const Compile *c, uint32_t item, const Affine *to_space)
 {
-    if (is_node(item) || !bounds_is_finite(box))
+    const Prim *prim = &c->prim.data[item];
+    if (prim->ops->reach == NULL)
+        return bounds_transformed(c->box.data[item], to_space);
+    Affine whole = affine_then(*prim->place, *to_space);
+    Bounds box;
+    for (int j = 0; j < 3; j++) {
+        Vec3 n = vec3(whole.m[0][j], whole.m[1][j], whole.m[2][j]);
+        double at = whole.m[3][j], most = prim->ops->reach(prim->data, n), least = prim->ops->reach(prim->data, negated(n));
+        double pad = (fabs(at) + fabs(most) + fabs(least)) * ASKEW;
+        vec3_set(&box.lo, j, at - least - pad);
+        vec3_set(&box.hi, j, at + most + pad);
+    }
+    return box;
+}
+
+/* As item_hull. What an intersection shows lies in each of its children that are no complements. */
+static Bounds item_hull_in(const Compile *c, uint32_t item, const Affine *to_space)
+{
+    if (!is_node(item))
+        return prim_hull_in(c, item, to_space);
+    const CsgNode *node = &c->csg.data[~item];
+    Bounds all = bounds_empty(), common = bounds_everything();
+    uint32_t n = node->flags & CSG_BOUND ? 1 : node->n;
+    for (uint32_t i = 0; i < n; i++) {
+        uint32_t child = c->csg_child.data[node->first + i];
+        Bounds hull = item_hull_in(c, child, to_space);
+        all = bounds_union(all, hull);
+        if (!is_node(child) && !item_reach(c, child).co && !(c->prim.data[child].ops->flags & SHAPE_NO_BOX_IN_CSG))
+            common = bounds_intersection(common, hull);
+    }
+    return node->op == CSG_ALL && !(node->flags & CSG_BOUND) ? bounds_intersection(all, common) : all;
+}
+
+static bool corners_inside(const Prim *prim, Bounds box, const Affine *back)
+{
+    if (!bounds_is_finite(box))
+        return false;
+    for (int i = 0; i < 8; i++) {
+        Vec3 corner = vec3(i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y, i & 4 ? box.hi.z : box.lo.z);
+        if (!prim->ops->inside(prim->data, affine_point(back, corner)))
+            return false;
+    }
+    return true;
+}
+
+bool item_holds(const Compile *c, uint32_t item, uint32_t body)
+{
+    if (is_node(item))
         return false;
     const Prim *prim = &c->prim.data[item];
     if (!(prim->ops->flags & SHAPE_CONVEX) || (prim->flags & PRIM_INVERSE) || prim->ops->inside == NULL)
         return false;
-    for (int i = 0; i < 8; i++) {
-        Vec3 corner = vec3(i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y, i & 4 ? box.hi.z : box.lo.z);
-        if (!prim->ops->inside(prim->data, affine_point_back(prim->place, corner)))
-            return false;
-    }
-    return true;
+    Affine back = affine_inverse(*prim->place);
+    return corners_inside(prim, item_hull(c, body), &back) ||
+           (!back.identity && corners_inside(prim, item_hull_in(c, body, &back), c->identity));
 }
 
 /* What a child leaves of a box that the others of an intersection have cut. */

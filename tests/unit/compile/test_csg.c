@@ -229,6 +229,26 @@ static void a_small_bound_cuts_and_a_large_one_is_dropped(void **state)
     arena_free(&a);
 }
 
+/* A frame and its bound turned together: the world's boxes of the two say nothing, those along the bound's axes do. */
+static void a_bound_that_lies_askew_is_dropped_if_it_holds_the_body(void **state)
+{
+    (void)state;
+    Arena a;
+    arena_init(&a);
+    const Object *frame = combined2(&a, OBJECT_DIFFERENCE, block(&a, vec3(-1, -1, -1), vec3(1, 1, 1)), block(&a, vec3(-3, -0.5, -0.5), vec3(3, 0.5, 0.5)));
+    static const double size[] = { 1.1, 0.9 };
+    for (int i = 0; i < 2; i++) {
+        double s = size[i];
+        const Object *o = placed(&a, bounded_to(&a, frame, block(&a, vec3(-s, -s, -s), vec3(s, s, s))), affine_rotate(vec3(20, 45, 10)));
+        World *w = world_of(&a, 1, &o, "bvh");
+        bool bounded = false;
+        for (uint32_t k = 0; k < w->n_prims; k++)
+            bounded |= (w->prim[k].flags & PRIM_BOUNDED) != 0;
+        assert_int_equal(bounded, i == 1);
+    }
+    arena_free(&a);
+}
+
 static void copies_of_a_shared_shape_share_its_data(void **state)
 {
     (void)state;
@@ -304,6 +324,7 @@ int main(void)
         cmocka_unit_test(of_equal_hits_the_first_object_and_the_last_child_win),
         cmocka_unit_test(a_clip_cuts_hits_and_inside_but_is_never_inverted),
         cmocka_unit_test(a_small_bound_cuts_and_a_large_one_is_dropped),
+        cmocka_unit_test(a_bound_that_lies_askew_is_dropped_if_it_holds_the_body),
         cmocka_unit_test(copies_of_a_shared_shape_share_its_data),
         cmocka_unit_test(planes_together_get_a_box_that_holds_all_hits),
         cmocka_unit_test(subtrahends_and_planes_get_the_box_of_the_whole),

@@ -115,8 +115,14 @@ static Bounds block_extent(const void *params, const Affine *place)
     return bounds_transformed(*(const Bounds *)params, place);
 }
 
+static double block_reach(const void *shape, Vec3 n)
+{
+    const Bounds *b = shape;
+    return fmax(n.x * b->lo.x, n.x * b->hi.x) + fmax(n.y * b->lo.y, n.y * b->hi.y) + fmax(n.z * b->lo.z, n.z * b->hi.z);
+}
+
 const ShapeOps body_block = { .keyword = "block", .params_size = sizeof(Bounds), .flags = SHAPE_CONVEX | SHAPE_SHARED,
-                              .compile = block_compile, .hits = block_hits, .inside = block_inside, .surface = block_surface,
+                              .compile = block_compile, .hits = block_hits, .reach = block_reach, .inside = block_inside, .surface = block_surface,
                               .extent = block_extent };
 
 /* ---- half space ---- */
