@@ -338,7 +338,8 @@ const Capture *cursor_capture(Parser *p, Lexer *l, const Token *first)
         return known;
     Beginning beginning;
     uint32_t n = count_body(p, *l, first, &beginning);
-    Token *tokens = arena_array(p->arena, Token, n);
+    Token *tokens = arena_array(p->arena, Token, (size_t)n + 1);
+    tokens[n].kind = TOK_END;
     memcpy(tokens, beginning.token, beginning.n * sizeof *tokens);
     *l = beginning.after;
     open[n_open++] = 0;

@@ -33,14 +33,6 @@ Vec3 num_vec3(Parser *p, const Num *n)
     return vec3(v.v[0], v.v[1], v.v[2]);
 }
 
-void num_from_value(Num *out, const Value *v)
-{
-    out->terms = v->terms;
-    out->v[0] = v->v[0];
-    for (int i = 1; i < v->terms; i++)
-        out->v[i] = v->v[i];
-}
-
 static bool truth(double v)
 {
     return fabs(v) > EPSILON;
@@ -351,12 +343,6 @@ double expr_relation(int kind, double a, double b)
     case TOK_EQUAL: return fabs(a - b) <= EPSILON;
     default: return fabs(a - b) > EPSILON;
     }
-}
-
-static bool is_relation(int kind)
-{
-    return kind == TOK_LESS || kind == TOK_GREATER || kind == TOK_LESS_EQUAL || kind == TOK_GREATER_EQUAL
-        || kind == TOK_EQUAL || kind == TOK_NOT_EQUAL;
 }
 
 static void relation_rest(Parser *p, Num *out)

@@ -24,7 +24,7 @@ typedef struct Fast {
 static void sum(Fast *f, Num *out);
 static void full(Fast *f, Num *out);
 
-/* Nothing comes behind a failure, so that all loops end. */
+/* Nothing comes behind a failure, so that all loops end: what stands at the end of an array is part of no expression (token.h). */
 static double give_up(Fast *f)
 {
     f->failed = true;
@@ -40,7 +40,7 @@ static void set(Num *out, double v)
 
 static inline int next_kind(const Fast *f)
 {
-    return f->at < f->end ? f->at->kind : TOK_END;
+    return f->at->kind;
 }
 
 static inline bool take(Fast *f, int kind)
@@ -289,7 +289,7 @@ static void unit(Num *out, int axis)
 static __attribute__((noinline)) void any_factor(Fast *f, Num *out)
 {
     set(out, 0);
-    if (f->at == f->end || ++f->depth > DEEPEST) {
+    if (++f->depth > DEEPEST) {
         give_up(f);
         return;
     }
@@ -329,13 +329,13 @@ static __attribute__((noinline)) void any_factor(Fast *f, Num *out)
 static inline void factor(Fast *f, Num *out)
 {
     const Token *t = f->at;
-    if (t < f->end && (t + 1 == f->end || t[1].kind != TOK_DOT)) {
-        if (t->kind == TOK_NUMBER) {
-            f->at++;
-            set(out, t->number);
-            return;
-        }
-        const Binding *b = t->kind == TOK_NAME ? t->sym->binding : NULL;
+    if (t->kind == TOK_NUMBER && t[1].kind != TOK_DOT) {
+        f->at++;
+        set(out, t->number);
+        return;
+    }
+    if (t->kind == TOK_NAME && t[1].kind != TOK_DOT) {
+        const Binding *b = t->sym->binding;
         if (b && !b->deprecated && b->value->kind == VALUE_NUMBER && b->value->terms == 1) {
             f->at++;
             set(out, b->value->v[0]);
@@ -345,44 +345,53 @@ static inline void factor(Fast *f, Num *out)
     any_factor(f, out);
 }
 
-static inline double of_floats(Fast *f, int kind, double a, double b)
+/* A division by zero is worth a warning. */
+static inline double quotient(Fast *f, double a, double b)
 {
-    switch (kind) {
-    case TOK_PLUS: return a + b;
-    case TOK_MINUS: return a - b;
-    case TOK_STAR: return a * b;
-    case TOK_SLASH: return b == 0 ? give_up(f) : a / b;        /* worth a warning */
-    default: return expr_relation(kind, a, b);
-    }
+    return b == 0 ? give_up(f) : a / b;
 }
 
-static __attribute__((noinline)) void operate_vectors(Fast *f, int kind, Num *a, Num *b)
+static void match_terms(Num *a, Num *b)
 {
     if (a->terms != b->terms) {
         num_promote(a, b->terms);
         num_promote(b, a->terms);
     }
+}
+
+static __attribute__((noinline)) void product_of_vectors(Fast *f, int kind, Num *a, Num *b)
+{
+    match_terms(a, b);
     for (int i = 0; i < a->terms; i++)
-        a->v[i] = of_floats(f, kind, a->v[i], b->v[i]);
+        a->v[i] = kind == TOK_STAR ? a->v[i] * b->v[i] : quotient(f, a->v[i], b->v[i]);
 }
 
-static inline void operate(Fast *f, int kind, Num *a, Num *b)
+static __attribute__((noinline)) void product_rest(Fast *f, Num *out)
 {
-    if (a->terms == 1 && b->terms == 1)
-        a->v[0] = of_floats(f, kind, a->v[0], b->v[0]);
-    else
-        operate_vectors(f, kind, a, b);
-}
-
-static void product(Fast *f, Num *out)
-{
-    factor(f, out);
     for (int kind; (kind = next_kind(f)) == TOK_STAR || kind == TOK_SLASH;) {
         Num b;
         f->at++;
         factor(f, &b);
-        operate(f, kind, out, &b);
+        if (out->terms != 1 || b.terms != 1)
+            product_of_vectors(f, kind, out, &b);
+        else
+            out->v[0] = kind == TOK_STAR ? out->v[0] * b.v[0] : quotient(f, out->v[0], b.v[0]);
     }
+}
+
+static inline void product(Fast *f, Num *out)
+{
+    factor(f, out);
+    int kind = next_kind(f);
+    if (kind == TOK_STAR || kind == TOK_SLASH)
+        product_rest(f, out);
+}
+
+static __attribute__((noinline)) void sum_of_vectors(int kind, Num *a, Num *b)
+{
+    match_terms(a, b);
+    for (int i = 0; i < a->terms; i++)
+        a->v[i] = kind == TOK_PLUS ? a->v[i] + b->v[i] : a->v[i] - b->v[i];
 }
 
 static void sum(Fast *f, Num *out)
@@ -392,14 +401,11 @@ static void sum(Fast *f, Num *out)
         Num b;
         f->at++;
         product(f, &b);
-        operate(f, kind, out, &b);
+        if (out->terms != 1 || b.terms != 1)
+            sum_of_vectors(kind, out, &b);
+        else
+            out->v[0] = kind == TOK_PLUS ? out->v[0] + b.v[0] : out->v[0] - b.v[0];
     }
-}
-
-static bool is_relation(int kind)
-{
-    return kind == TOK_LESS || kind == TOK_GREATER || kind == TOK_LESS_EQUAL || kind == TOK_GREATER_EQUAL || kind == TOK_EQUAL
-        || kind == TOK_NOT_EQUAL;
 }
 
 static void comparison(Fast *f, Num *out)
@@ -409,7 +415,9 @@ static void comparison(Fast *f, Num *out)
         Num b;
         f->at++;
         sum(f, &b);
-        operate(f, kind, out, &b);
+        match_terms(out, &b);
+        for (int i = 0; i < out->terms; i++)
+            out->v[i] = expr_relation(kind, out->v[i], b.v[i]);
     }
 }
 

@@ -13,8 +13,9 @@ enum {                                         /* beyond the keywords */
     TOK_END = N_KEYWORDS,                        /* of the input */
     TOK_NUMBER, TOK_STRING, TOK_NAME,          /* name: an identifier, declared or not */
     TOK_OPEN, TOK_CLOSE,                       /* { } */
-    TOK_LPAREN, TOK_RPAREN, TOK_LBRACKET, TOK_RBRACKET, TOK_LESS, TOK_GREATER, TOK_LESS_EQUAL, TOK_GREATER_EQUAL,
-    TOK_NOT_EQUAL, TOK_EQUAL, TOK_NOT, TOK_AND, TOK_OR, TOK_PLUS, TOK_MINUS, TOK_STAR, TOK_SLASH, TOK_COMMA,
+    TOK_LPAREN, TOK_RPAREN, TOK_LBRACKET, TOK_RBRACKET,
+    TOK_LESS, TOK_GREATER, TOK_LESS_EQUAL, TOK_GREATER_EQUAL, TOK_NOT_EQUAL, TOK_EQUAL,        /* the relations stand together */
+    TOK_NOT, TOK_AND, TOK_OR, TOK_PLUS, TOK_MINUS, TOK_STAR, TOK_SLASH, TOK_COMMA,
     TOK_SEMICOLON, TOK_COLON, TOK_QUESTION, TOK_DOT, TOK_HASH, TOK_OTHER
 };
 

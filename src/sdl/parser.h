@@ -5,6 +5,8 @@
 #ifndef SDL_PARSER_H
 #define SDL_PARSER_H
 
+#include <string.h>
+
 #include "base/array.h"
 #include "base/file.h"
 #include "sdl/host.h"
@@ -237,8 +239,17 @@ double num_float(Parser *p, const Num *n);
 void num_promote(Num *n, int terms);
 Vec3 num_vec3(Parser *p, const Num *n);
 bool kind_starts_number(const Parser *p);      /* of the look-ahead */
-void num_from_value(Num *out, const Value *v);
+static inline void num_from_value(Num *out, const Value *v)
+{
+    memcpy(out->v, v->v, sizeof out->v);       /* more than its terms, but at once */
+    out->terms = v->terms;
+}
 void expr_condition(Parser *p, Num *out);      /* ( full ), the outermost level suspended */
+
+static inline bool is_relation(int kind)
+{
+    return kind >= TOK_LESS && kind <= TOK_EQUAL;
+}
 
 double expr_relation(int kind, double a, double b);        /* TOK_LESS...: 0 or 1 */
 

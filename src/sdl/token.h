@@ -1,7 +1,8 @@
 /* token.h - what the lexer makes of the text: 24 bytes a token.
  *
  * Big files are lexed as they are parsed and leave no tokens behind. Only the bodies of loops and macros are kept, as
- * arrays of tokens that are replayed by index; there each directive knows where its next branch begins. */
+ * arrays of tokens that are replayed by index; there each directive knows where its next branch begins. Behind the last one that a
+ * reader may take stands a TOK_HASH (a macro's #end) or TOK_END. */
 #ifndef SDL_TOKEN_H
 #define SDL_TOKEN_H
 
