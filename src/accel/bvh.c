@@ -16,8 +16,8 @@ enum {
     LEAF_FEW = 1, LEAF_MANY = 4,               /* a range of so many items may stay whole: calling one costs more than a node */
     DEPTH_BINNED = 40,                         /* below it ranges are halved by count: log8(2^32) more levels at most */
     GRID_FROM = 4096,                          /* a range of more items is sorted into a grid first */
-    PER_CELL = 8,                              /* items to a cell, if they filled the space evenly */
-    CELLS_FEW = 256                            /* a range of cells with no more items becomes one of items */
+    PER_CELL = 12,                             /* items to a cell, if they filled the space evenly */
+    CELLS_FEW = 48                             /* a range of cells with no more items becomes one of items */
 };
 
 /* Testing an item costs about this many box tests: an indirect call, often a transform, sometimes a set operation. */
@@ -76,19 +76,17 @@ static void item_set_box(Item *item, Box b)
 }
 
 /* Half the surface; 0 for an empty box. */
-static float box_area(Box b)
+static inline float box_area(Box b)
 {
     float d[4];
     f4_store(d, f4_max(f4_sub(b.hi, b.lo), f4_set(0)));
     return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
 }
 
-/* Kept within floats: what is unbounded counts as far away. */
-static f4 box_middle(Box b)
+/* Twice the middle, which orders items as well. Of what is unbounded it may be no number: that counts as last. */
+static inline f4 box_middle(Box b)
 {
-    f4 far = f4_set(0x1p126f), near = f4_set(-0x1p126f), half = f4_set(0.5f);
-    f4 lo = f4_mul(f4_max(f4_min(b.lo, far), near), half), hi = f4_mul(f4_max(f4_min(b.hi, far), near), half);
-    return f4_add(lo, hi);
+    return f4_add(b.lo, b.hi);
 }
 
 static Item item_outward(const Bounds *b, uint32_t index)
@@ -117,17 +115,17 @@ typedef struct Bins {
     uint32_t count[3][N_BINS];
 } Bins;
 
-static inline void bins_of(const Bins *bins, const Item *item, int32_t out[4])
+static inline void bins_of(const Bins *bins, f4 middle, int32_t out[4])
 {
     f4 most = f4_set((float)(bins->n - 1));
-    f4 bin = f4_mul(f4_sub(box_middle(item_box(item)), bins->lo), bins->scale);
+    f4 bin = f4_mul(f4_sub(middle, bins->lo), bins->scale);
     f4_to_int(out, f4_max(f4_min(bin, most), f4_set(0)));
 }
 
 static void bins_fill(Bins *bins, const Range *r)
 {
     float size[4], scale[4] = { 0 };
-    bins->n = r->n <= 4 ? 4 : r->n <= 32 ? 8 : N_BINS;
+    bins->n = r->n <= 8 ? 4 : r->n <= 64 ? 8 : N_BINS;
     bins->lo = r->middles.lo;
     f4_store(size, f4_sub(r->middles.hi, r->middles.lo));
     for (int axis = 0; axis < 3; axis++) {
@@ -142,7 +140,7 @@ static void bins_fill(Bins *bins, const Range *r)
     for (uint32_t i = 0; i < r->n; i++) {
         Box b = item_box(&r->item[i]);
         int32_t bin[4];
-        bins_of(bins, &r->item[i], bin);
+        bins_of(bins, box_middle(b), bin);
         for (int axis = 0; axis < 3; axis++) {
             bins->box[axis][bin[axis]] = box_both(bins->box[axis][bin[axis]], b);
             bins->count[axis][bin[axis]] += r->item[i].n;
@@ -176,27 +174,15 @@ static Split find_split(const Bins *bins, uint32_t n)
     return best;
 }
 
-/* Sorts the range by sides of the plane; returns how many are left of it. */
-static uint32_t partition(const Range *r, const Bins *bins, const Split *s)
+/* Without its items: box, middles and total are still to be filled in. */
+static Range range_empty(Item *item, uint32_t n, bool cells)
 {
-    uint32_t i = 0, j = r->n;
-    while (i < j) {
-        int32_t bin[4];
-        bins_of(bins, &r->item[i], bin);
-        if (bin[s->axis] < s->bin)
-            i++;
-        else {
-            Item item = r->item[i];
-            r->item[i] = r->item[--j];
-            r->item[j] = item;
-        }
-    }
-    return i;
+    return (Range){ .item = item, .n = n, .box = box_none(), .middles = box_none(), .cells = cells, .whole = n == 1 && !cells };
 }
 
 static Range range_of(Item *item, uint32_t n, bool cells)
 {
-    Range r = { .item = item, .n = n, .box = box_none(), .middles = box_none(), .cells = cells, .whole = n == 1 && !cells };
+    Range r = range_empty(item, n, cells);
     for (uint32_t i = 0; i < n; i++) {
         Box b = item_box(&item[i]);
         f4 m = box_middle(b);
@@ -205,6 +191,45 @@ static Range range_of(Item *item, uint32_t n, bool cells)
         r.total += item[i].n;
     }
     return r;
+}
+
+/* Leaves the first `left` items to *r, gives the others to *other. */
+static void halve(Range *r, Range *other, uint32_t left)
+{
+    *other = range_of(r->item + left, r->n - left, r->cells);
+    *r = range_of(r->item, left, r->cells);
+}
+
+/* Sorts the range by sides of the plane: the left one to *r, the right one to *other. The bins have their boxes already. */
+static void halve_at_plane(Range *r, Range *other, const Bins *bins, const Split *s)
+{
+    Box left = box_none(), right = box_none(); /* middles */
+    Item *item = r->item;
+    uint32_t i = 0, j = r->n;
+    while (i < j) {
+        int32_t bin[4];
+        f4 m = box_middle(item_box(&item[i]));
+        bins_of(bins, m, bin);
+        if (bin[s->axis] < s->bin) {
+            left = box_both(left, (Box){ m, m });
+            i++;
+        } else {
+            right = box_both(right, (Box){ m, m });
+            Item swapped = item[i];
+            item[i] = item[--j];
+            item[j] = swapped;
+        }
+    }
+    uint32_t n = r->n;
+    *r = range_empty(item, i, r->cells);
+    *other = range_empty(item + i, n - i, r->cells);
+    r->middles = left;
+    other->middles = right;
+    for (int k = 0; k < bins->n; k++) {
+        Range *side = k < s->bin ? r : other;
+        side->box = box_both(side->box, bins->box[s->axis][k]);
+        side->total += bins->count[s->axis][k];
+    }
 }
 
 /* ---- the grid ---- */
@@ -318,19 +343,35 @@ static uint32_t cut_pair(const Builder *k, const Range *r)
     return area + apart * k->cost < area * 2 * k->cost ? 1 : 0;
 }
 
-/* How many of the range go left of the best plane; 0: better left whole. */
-static uint32_t cut_by_area(const Builder *k, const Range *r)
+/* At the best plane; false: better left whole. */
+static bool cut_by_area(const Builder *k, Range *r, Range *other)
 {
-    if (r->n == 2 && !r->cells)
-        return cut_pair(k, r);
+    if (r->n == 2 && !r->cells) {
+        uint32_t left = cut_pair(k, r);
+        if (left > 0)
+            halve(r, other, left);
+        return left > 0;
+    }
     Bins bins;
     bins_fill(&bins, r);
     Split s = find_split(&bins, r->total);
     float area = box_area(r->box);
     bool pays = s.axis >= 0 && area + s.cost * k->cost < area * (float)r->total * k->cost;
     if (r->total <= k->leaf_max && !pays)
-        return 0;
-    return s.axis >= 0 ? partition(r, &bins, &s) : r->n / 2;
+        return false;
+    if (s.axis >= 0)
+        halve_at_plane(r, other, &bins, &s);
+    else
+        halve(r, other, r->n / 2);
+    return true;
+}
+
+static bool cut_by_count(const Builder *k, Range *r, Range *other)
+{
+    if (r->n <= k->leaf_max)
+        return false;
+    halve(r, other, r->n / 2);
+    return true;
 }
 
 /* Cuts *r in two, or marks it whole. */
@@ -338,12 +379,10 @@ static bool split(Builder *k, Range *r, Range *other, bool binned)
 {
     if (r->cells && !binned)
         *r = range_placed(k, r);
-    uint32_t n = r->n, left = binned ? cut_by_area(k, r) : n <= k->leaf_max ? 0 : n / 2;
-    r->whole = left == 0;
-    if (r->whole)
+    if (!(binned ? cut_by_area(k, r, other) : cut_by_count(k, r, other))) {
+        r->whole = true;
         return false;
-    *other = range_of(r->item + left, n - left, r->cells);
-    *r = range_of(r->item, left, r->cells);
+    }
     leave_cells(k, r);
     leave_cells(k, other);
     return true;
@@ -374,12 +413,27 @@ static int widest(const Range *range, uint32_t n, bool binned)
     return best;
 }
 
+/* So few items are a child each: boxes of children cost next to nothing. Two in nearly the same box stay together. */
+static uint32_t spread(const Builder *k, const Range *all, Range *range)
+{
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < all->n; i += range[n++].n) {
+        range[n] = range_of(all->item + i, i + 1 < all->n ? 2 : 1, false);
+        if (range[n].n == 2 && cut_pair(k, &range[n]) > 0)
+            range[n] = range_of(all->item + i, 1, false);
+        range[n].whole = true;
+    }
+    return n;
+}
+
 static void build_node(Builder *k, uint32_t index, Range all, int depth)
 {
     Range range[BVH_WIDTH] = { all };
     uint32_t n = 1;
     bool binned = depth < DEPTH_BINNED;
     int at;
+    if (all.n <= BVH_WIDTH && !all.cells)
+        n = spread(k, &all, range);
     while (n < BVH_WIDTH && (at = widest(range, n, binned)) >= 0)
         if (split(k, &range[at], &range[n], binned))
             n++;
