@@ -171,6 +171,11 @@ Vec3 noise_vector_turbulence(const Vec3 *p, int octaves, double omega, double la
     return kernel->vector_turbulence(p, octaves, omega, lambda);
 }
 
+Vec2 noise_pair_turbulence(const Vec3 *p, int octaves, double omega, double lambda)
+{
+    return kernel->pair_turbulence(p, octaves, omega, lambda);
+}
+
 bool noise_two_nearest(const NoiseCube *cube, const Vec3 *p, double square[2])
 {
     if (kernel->two_nearest == NULL)

@@ -25,6 +25,7 @@ double noise_ridges(int generator, const Vec3 *p);
 /* U(p) and V(p) of section 4; octaves 1..10. */
 double noise_turbulence(int generator, Vec3 p, int octaves, double omega, double lambda);
 Vec3 noise_vector_turbulence(const Vec3 *p, int octaves, double omega, double lambda);
+Vec2 noise_pair_turbulence(const Vec3 *p, int octaves, double omega, double lambda);       /* x and y of V(p) */
 
 enum { NOISE_CELLS = 4096 };
 

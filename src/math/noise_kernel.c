@@ -361,6 +361,29 @@ static Vec3 vector_turbulence(const Vec3 *p, int n, double omega, double lambda)
     return vector_stored(sum);
 }
 
+/* x and y of a vector: two thirds of the work. */
+static inline Pair spot_pair(const Spot *spot)
+{
+    Quad dx = { 0 }, dy = { 0 };
+    FOR_CORNERS(spot, dx += factors * load(table); dy += factors * load(table + 4);)
+    Pair x = halves(dx), y = halves(dy);
+    return (Pair){ x[0], y[0] } + (Pair){ x[1], y[1] };
+}
+
+static Vec2 pair_turbulence(const Vec3 *p, int n, double omega, double lambda)
+{
+    Spot spot[MAX_OCTAVES];
+    if (!spots_set(spot, *p, 1, lambda, n)) {
+        Vec3 v = vector_turbulence(p, n, omega, lambda);
+        return (Vec2){ v.x, v.y };
+    }
+    Pair sum = spot_pair(&spot[0]);
+    double weight = omega;
+    for (int k = 1; k < n; k++, weight *= omega)
+        sum += spot_pair(&spot[k]) * weight;
+    return (Vec2){ sum[0], sum[1] };
+}
+
 /* ---- random points ---- */
 
 #ifdef __AVX2__
@@ -412,4 +435,5 @@ static void two_nearest(const NoiseCube *cube, const Vec3 *p, double square[2])
 const NoiseKernel ISA_NAME(noise_kernel)[1] = { {
     .value = value, .vector = vector, .octaves = octaves, .vector_octaves = vector_octaves,
     .two_nearest = TWO_NEAREST, .ridges = ridges, .turbulence = turbulence, .vector_turbulence = vector_turbulence,
+    .pair_turbulence = pair_turbulence,
 } };

@@ -27,6 +27,7 @@ typedef struct NoiseKernel {
     double (*ridges)(int generator, const Vec3 *p);
     double (*turbulence)(int generator, const Vec3 *p, int octaves, double omega, double lambda);
     Vec3 (*vector_turbulence)(const Vec3 *p, int octaves, double omega, double lambda);
+    Vec2 (*pair_turbulence)(const Vec3 *p, int octaves, double omega, double lambda);
 } NoiseKernel;
 
 /* One element each: a name that is an address fits CPU_TABLE. */

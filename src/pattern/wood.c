@@ -23,9 +23,9 @@ static double wood(const void *params, const PatternPoint *at)
     double x = p.x, y = p.y;
     if (at->pattern->chain.has_turbulence) {
         const Turbulence *t = &at->pattern->chain.turbulence;
-        Vec3 v = noise_vector_turbulence(&at->p, t->octaves, (double)t->omega, (double)t->lambda);
-        x += wave_sine((p.x + v.x) * t->amount.x);
-        y += wave_sine((p.y + v.y) * t->amount.y);
+        Vec2 v = noise_pair_turbulence(&at->p, t->octaves, (double)t->omega, (double)t->lambda);
+        x += wave_sine((p.x + v.u) * t->amount.x);
+        y += wave_sine((p.y + v.v) * t->amount.y);
     }
     return sqrt(x * x + y * y);
 }

@@ -102,6 +102,8 @@ static void octaves_and_instruction_sets_give_the_same_bits(void **state)
         assert_memory_equal(&a, &b, sizeof a);
         Vec3 v = base->vector_turbulence(&p, 6, 0.5, 2), w = best->vector_turbulence(&p, 6, 0.5, 2);
         assert_memory_equal(&v, &w, sizeof v);
+        Vec2 pair = base->pair_turbulence(&p, 6, 0.5, 2), two = best->pair_turbulence(&p, 6, 0.5, 2);
+        assert_true(pair.u == v.x && pair.v == v.y && two.u == v.x && two.v == v.y);
         w = base->vector(&p);
         for (int k = 1; k < 6; k++) {                      /* octaves that come back from afar */
             Vec3 q = scaled(p, ldexp(1, -k));
