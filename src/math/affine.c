@@ -130,19 +130,24 @@ Affine affine_frame(Vec3 origin, Vec3 axis, double radius, double length_)
     return affine_then(affine_then(scale, turn), affine_translate(origin));
 }
 
-/* The lanes are columns; the last is idle. */
-typedef double Row __attribute__((vector_size(32)));
+typedef double Pair __attribute__((vector_size(16)));
+typedef double PairInMemory __attribute__((vector_size(16), aligned(8), may_alias));
 
+/* Two columns are lanes, the third stands alone. Rows but the last add 0, which turns -0 into 0. */
 static void compose(double out[4][3], const double a[4][3], const double b[4][3])
 {
-    Row r[5];                                  /* of b, and nothing */
-    for (int i = 0; i < 4; i++)
-        r[i] = (Row){ b[i][0], b[i][1], b[i][2], 0 };
-    r[4] = (Row){ 0 };
+    Pair xy[5] = { [4] = { 0 } };
+    double z[5] = { [4] = 0 };
+#pragma GCC unroll 4
     for (int i = 0; i < 4; i++) {
-        Row sum = a[i][0] * r[0] + a[i][1] * r[1] + a[i][2] * r[2] + r[i == 3 ? 3 : 4];
-        for (int j = 0; j < 3; j++)
-            out[i][j] = sum[j];
+        xy[i] = *(const PairInMemory *)b[i];
+        z[i] = b[i][2];
+    }
+#pragma GCC unroll 4
+    for (int i = 0; i < 4; i++) {
+        int last = i == 3 ? 3 : 4;
+        *(PairInMemory *)out[i] = a[i][0] * xy[0] + a[i][1] * xy[1] + a[i][2] * xy[2] + xy[last];
+        out[i][2] = a[i][0] * z[0] + a[i][1] * z[1] + a[i][2] * z[2] + z[last];
     }
 }
 

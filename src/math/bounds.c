@@ -59,8 +59,10 @@ Bounds bounds_transformed(Bounds a, const Affine *place)
     if (place->identity || bounds_is_empty(a))
         return a;
     Bounds out;
+#pragma GCC unroll 3
     for (int j = 0; j < 3; j++) {
         double lo = place->m[3][j], hi = lo, size = fabs(lo);
+#pragma GCC unroll 3
         for (int i = 0; i < 3; i++) {
             double m = place->m[i][j];
             if (m == 0)
