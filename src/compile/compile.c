@@ -8,15 +8,26 @@
 
 /* ---- tables ---- */
 
+/* The multiplication carries up, the shift brings it down again. */
+static inline uint64_t hash_word(uint64_t h, uint64_t word)
+{
+    h = (h ^ word) * 0x9e3779b97f4a7c15u;
+    return h ^ h >> 29;
+}
+
 uint32_t hash_bytes(const void *data, size_t n)
 {
     const char *p = data;
-    uint64_t h = n;
-    for (size_t i = 0; i < n; i += 8) {        /* the multiplication carries up, the shift brings it down again */
-        uint64_t word = 0;
-        memcpy(&word, p + i, n - i < 8 ? n - i : 8);
-        h = (h ^ word) * 0x9e3779b97f4a7c15u;
-        h ^= h >> 29;
+    uint64_t h = n, word;
+    size_t i = 0;
+    for (; i + sizeof word <= n; i += sizeof word) {
+        memcpy(&word, p + i, sizeof word);
+        h = hash_word(h, word);
+    }
+    if (i < n) {
+        word = 0;
+        memcpy(&word, p + i, n - i);
+        h = hash_word(h, word);
     }
     h *= 0xbf58476d1ce4e5b9u;
     return (uint32_t)(h >> 32);
