@@ -9,6 +9,16 @@
 #include "sdl/lex.h"
 #include "sdl/number.h"
 
+/* Ends an attempt: it has come to s, or failed. */
+static inline bool keep(Lexer *lexer, Lexer *l, const char *s)
+{
+    if (s == NULL)
+        return false;
+    l->at = s;
+    *lexer = *l;
+    return true;
+}
+
 /* A number with a sign or none, and the blanks around it. */
 static inline const char *number(Lexer *l, const char *s, double *out)
 {
@@ -85,9 +95,7 @@ bool literal_vector(Lexer *lexer, LiteralBefore before, double out[3])
     s = lex_blank(&l, s);
     if (!ends(s) && !is_digit(*s))
         return false;
-    l.at = s;
-    *lexer = l;
-    return true;
+    return keep(lexer, &l, s);
 }
 
 bool literal_number(Lexer *lexer, LiteralBefore before, double *out)
@@ -96,20 +104,14 @@ bool literal_number(Lexer *lexer, LiteralBefore before, double *out)
     const char *s = number(&l, before == LITERAL_COMMA ? comma(&l, l.at) : l.at, out);
     if (s == NULL || !ends(s))
         return false;
-    l.at = s;
-    *lexer = l;
-    return true;
+    return keep(lexer, &l, s);
 }
 
 bool literal_numbers(Lexer *lexer, int n, double *out)
 {
     Lexer l = *lexer;
     const char *s = mark(&l, l.at, '<');
-    if (s == NULL || (s = numbers(&l, s, n, out)) == NULL)
-        return false;
-    l.at = s;
-    *lexer = l;
-    return true;
+    return s != NULL && keep(lexer, &l, numbers(&l, s, n, out));
 }
 
 int literal_argument(Lexer *lexer, double out[5])
@@ -160,11 +162,7 @@ bool literal_pigment(Lexer *lexer, Colour *out)
 {
     Lexer l = *lexer;
     const char *s = pigment(&l, l.at, out);
-    if (s == NULL)
-        return false;
-    l.at = s;
-    *lexer = l;
-    return true;
+    return keep(lexer, &l, s);
 }
 
 static const char *texture_body(Lexer *l, const char *s, Colour *out)
@@ -179,20 +177,12 @@ bool literal_texture_body(Lexer *lexer, Colour *out)
 {
     Lexer l = *lexer;
     const char *s = texture_body(&l, l.at, out);
-    if (s == NULL)
-        return false;
-    l.at = s;
-    *lexer = l;
-    return true;
+    return keep(lexer, &l, s);
 }
 
 bool literal_texture(Lexer *lexer, Colour *out)
 {
     Lexer l = *lexer;
     const char *s = word(&l, l.at, "texture");
-    if (s == NULL || (s = texture_body(&l, s, out)) == NULL)
-        return false;
-    l.at = s;
-    *lexer = l;
-    return true;
+    return s != NULL && keep(lexer, &l, texture_body(&l, s, out));
 }
