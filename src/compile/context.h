@@ -115,7 +115,7 @@ typedef struct Reach {                         /* outside `box` a point is outsi
 } Reach;
 Reach item_reach(const Compile *c, uint32_t item);
 Bounds item_hull(const Compile *c, uint32_t item);                 /* holds every hit */
-bool item_holds(const Compile *c, uint32_t item, uint32_t body);   /* surely all of the body is inside the item */
+bool item_holds(const Compile *c, uint32_t item, uint32_t body, Bounds hull);      /* surely all of the body, whose hull that is, is inside the item */
 uint32_t csg_node(Compile *c, CsgOp op, uint32_t flags, const Items *children, uint32_t first_prim);
 void csg_reverse(Compile *c, uint32_t first_prim, uint32_t first_node);
 void csg_finish(Compile *c);

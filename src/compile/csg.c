@@ -90,7 +90,7 @@ static bool corners_inside(const Prim *prim, Bounds box, const Affine *back)
     return true;
 }
 
-bool item_holds(const Compile *c, uint32_t item, uint32_t body)
+bool item_holds(const Compile *c, uint32_t item, uint32_t body, Bounds hull)
 {
     if (is_node(item))
         return false;
@@ -98,7 +98,7 @@ bool item_holds(const Compile *c, uint32_t item, uint32_t body)
     if (!(prim->ops->flags & SHAPE_CONVEX) || (prim->flags & PRIM_INVERSE) || prim->ops->inside == NULL)
         return false;
     Affine back = affine_inverse(*prim->place);
-    return corners_inside(prim, item_hull(c, body), &back) ||
+    return corners_inside(prim, hull, &back) ||
            (!back.identity && corners_inside(prim, item_hull_in(c, body, &back), c->identity));
 }
 

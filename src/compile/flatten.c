@@ -415,7 +415,7 @@ static uint32_t bounded(Compile *c, const Object *o, const Inherited *from, uint
         Reach r = item_reach(c, bounds.data[i]);
         if (only_box && !r.co)
             box = bounds_intersection(box, r.box);
-        else if (!only_box && !item_holds(c, bounds.data[i], body))
+        else if (!only_box && !item_holds(c, bounds.data[i], body, hull))
             array_push(c->arena, &items, bounds.data[i]);
     }
     bool cuts = only_box ? !(bounds_contain(box, hull.lo) && bounds_contain(box, hull.hi)) : items.n > 1;
