@@ -489,28 +489,26 @@ static bool at_end(const Fast *f)
     return kind != TOK_NAME && kind != TOK_HASH && kind != TOK_END;
 }
 
-bool fast_sum(Parser *p, Num *out)
+static inline bool whole(Parser *p, void (*part)(Fast *f, Num *out), Num *out)
 {
     Fast f;
     if (!start(p, &f))
         return false;
-    sum(&f, out);
+    part(&f, out);
     if (f.failed || !at_end(&f))
         return abandon(&f);
     finish(p, &f);
     return true;
 }
 
+bool fast_sum(Parser *p, Num *out)
+{
+    return whole(p, sum, out);
+}
+
 bool fast_full(Parser *p, Num *out)
 {
-    Fast f;
-    if (!start(p, &f))
-        return false;
-    full(&f, out);
-    if (f.failed || !at_end(&f))
-        return abandon(&f);
-    finish(p, &f);
-    return true;
+    return whole(p, full, out);
 }
 
 bool fast_condition(Parser *p, bool *out)

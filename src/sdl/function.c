@@ -367,15 +367,19 @@ static void ask_patterns(const void *data, const double *const *a, double (*out)
             out[i][k] = k == 0 ? v[i] : 0;
 }
 
-static void ask_pigment(const void *data, const double *a, double *out)
+static void give_colour(Colour c, double *out)
 {
-    const Ask *ask = data;
-    Colour c = ask->host->pigment(ask->host->user, ask->pigment, vec3(a[0], a[1], a[2]));
     out[0] = (double)c.r;
     out[1] = (double)c.g;
     out[2] = (double)c.b;
     out[3] = (double)c.f;
     out[4] = (double)c.t;
+}
+
+static void ask_pigment(const void *data, const double *a, double *out)
+{
+    const Ask *ask = data;
+    give_colour(ask->host->pigment(ask->host->user, ask->pigment, vec3(a[0], a[1], a[2])), out);
 }
 
 static void ask_pigments(const void *data, const double *const *a, double (*out)[5], int n)
@@ -385,13 +389,8 @@ static void ask_pigments(const void *data, const double *const *a, double (*out)
     Colour c[FUNC_MANY];
     points_of(a, p, n);
     ask->host->pigments(ask->host->user, ask->pigment, p, c, n);
-    for (int i = 0; i < n; i++) {
-        out[i][0] = (double)c[i].r;
-        out[i][1] = (double)c[i].g;
-        out[i][2] = (double)c[i].b;
-        out[i][3] = (double)c[i].f;
-        out[i][4] = (double)c[i].t;
-    }
+    for (int i = 0; i < n; i++)
+        give_colour(c[i], out[i]);
 }
 
 static void ask_transform(const void *data, const double *a, double *out)
