@@ -50,7 +50,7 @@ typedef enum WhitGamma { WHIT_GAMMA_NONE, WHIT_GAMMA_POWER, WHIT_GAMMA_SRGB } Wh
 
 typedef struct WhitImage {                     /* owned by Whit */
     int width, height;
-    const float *rgba;                         /* working space, premultiplied, unclipped; alpha = 1 - transmit */
+    const float *rgba;                         /* working space, premultiplied, unclipped; alpha = 1 - transmit; NULL: none */
     WhitGamma working;  double working_gamma;  /* how to decode to linear; NONE: legacy, no correction */
 } WhitImage;
 

@@ -289,17 +289,25 @@ static float *pixels_new(size_t n)
     return pixels;
 }
 
+static void drop_picture(Whit *w)
+{
+    free(w->rgba);
+    w->rgba = NULL;
+}
+
 static void prepare_picture(Whit *w, void *with)
 {
     const WhitOptions *o = &w->options;
-    if (!region(w, with))
+    RenderOptions *r = with;
+    if (!region(w, r))
         fail(w->diag, (Loc){ 0 }, "the region of columns and rows does not lie within the picture");
-    free(w->rgba);
+    drop_picture(w);
     size_t pixels = (size_t)o->width * (size_t)o->height;
     w->rgba = pixels_new(pixels);
     if (!w->rgba)
         fail_io(w->diag, (Loc){ 0 }, "no memory for %d x %d pixels", o->width, o->height);
-    for (size_t i = 0; i < pixels; i++)        /* outside the region: black and opaque */
+    bool whole = r->first_column == 0 && r->first_row == 0 && r->last_column == o->width - 1 && r->last_row == o->height - 1;
+    for (size_t i = 0; !whole && i < pixels; i++)      /* outside the region: black and opaque */
         memcpy(w->rgba + 4 * i, (const float[4]){ 0, 0, 0, 1 }, 4 * sizeof *w->rgba);
 }
 
@@ -327,7 +335,12 @@ bool whit_render(Whit *w, WhitProgress *progress, void *user)
         .jitter = o->jitter == 0 ? 1 : o->jitter < 0 ? 0 : o->jitter,
         .antialias_gamma = o->antialias_gamma > 0 ? o->antialias_gamma : 2.5, .output_alpha = o->output_alpha,
     };
-    return w->loaded && attempt(w, prepare_picture, &r) && render(&w->world, &r, w->rgba, tell_progress, &(Telling){ w, progress, user });
+    if (!w->loaded || !attempt(w, prepare_picture, &r))
+        return false;
+    if (render(&w->world, &r, w->rgba, tell_progress, &(Telling){ w, progress, user }))
+        return true;
+    drop_picture(w);                           /* parts of it were never written */
+    return false;
 }
 
 WhitImage whit_image(const Whit *w)

@@ -56,8 +56,9 @@ Sampling *sampling_new(Arena *arena, const World *w, const RenderOptions *option
     s->blur = blur_new(arena, &w->camera);
     s->moves = camera_moves(&w->camera);
     s->home = s->moves ? home_of(s) : NOWHERE;
-    if (s->blur != NULL && s->home.lo.x <= s->home.hi.x)
-        s->moves = false;                      /* no ray starts outside the aperture */
+    bool strays = s->blur == NULL && w->globals.radiosity.on;      /* passes of radiosity look beyond the picture */
+    if (s->home.lo.x <= s->home.hi.x && !strays)
+        s->moves = false;
     bool plain = s->blur == NULL && w->camera.normal == NULL;
     s->pinhole = w->camera.kind == CAMERA_PERSPECTIVE && plain;
     s->parallel = w->camera.kind == CAMERA_ORTHOGRAPHIC && plain;
@@ -65,7 +66,8 @@ Sampling *sampling_new(Arena *arena, const World *w, const RenderOptions *option
     s->down = normalized(cross(w->camera.direction, s->across));
     s->focus = w->camera.focal_distance / length(w->camera.direction);
     s->radius = w->camera.aperture / 2;
-    position_hash_fill(&s->hash);
+    if (s->blur != NULL || (options->antialias != 0 && options->jitter > 0))
+        position_hash_fill(&s->hash);
     if (s->blur != NULL)
         s->blur_cell = blur_cells(arena, &s->hash);
     return s;

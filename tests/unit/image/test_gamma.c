@@ -41,7 +41,7 @@ static void nearly_equal_powers_are_equal(void **state)
 static void quick_rounding_has_the_codes_of_the_formula(void **state)
 {
     (void)state;
-    const Transfer files[] = { srgb, linear, { TRANSFER_POWER, 2.2 } };
+    const Transfer files[] = { srgb, linear, { TRANSFER_POWER, 2.2 }, { TRANSFER_POWER, 0.4 } };
     enum { N = 4000 };
     float *rgba = malloc(N * 4 * sizeof *rgba);
     uint16_t *code = malloc(N * 4 * sizeof *code);
@@ -51,7 +51,7 @@ static void quick_rounding_has_the_codes_of_the_formula(void **state)
     rgba[0] = NAN;
     rgba[1] = INFINITY;
     rgba[2] = -INFINITY;
-    for (size_t f = 0; f < 3; f++)
+    for (size_t f = 0; f < 4; f++)
         for (int k = 0; k < 8; k++) {
             Quantising q = { .working = linear, .file = files[f], .bits = 5 + k % 4, .grey = k >= 4 };
             int max = (1 << q.bits) - 1, n = quantise_channels(&q);

@@ -229,6 +229,7 @@ static void progress_can_cancel(void **state)
     assert_true(whit_load_text(w, "test.pov", text, strlen(text)));
     assert_false(whit_render(w, stop_at_once, &done));
     assert_int_equal(done, 1);
+    assert_null(whit_image(w).rgba);
     whit_free(w);
 }
 
