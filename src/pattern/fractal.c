@@ -94,7 +94,7 @@ static inline Number over(Number x, Number y)
     return (Number){ (x.a * y.a + x.b * y.b) / n, (x.b * y.a - x.a * y.b) / n };
 }
 
-static Number power(Number x, int n)
+static inline Number power(Number x, int n)
 {
     Number result = x;
     for (int bit = 1 << (30 - __builtin_clz((unsigned)n)); bit != 0; bit >>= 1) {
@@ -105,16 +105,31 @@ static Number power(Number x, int n)
     return result;
 }
 
-static Number magnet1(Number z, Number c)
+typedef Number Next(const Fractal *f, Number z, Number c);
+
+static inline Number next_square(const Fractal *f, Number z, Number c)
 {
+    (void)f;
+    return plus(times(z, z), c);
+}
+
+static inline Number next_power(const Fractal *f, Number z, Number c)
+{
+    return plus(power(z, f->exponent), c);
+}
+
+static inline Number next_magnet1(const Fractal *f, Number z, Number c)
+{
+    (void)f;
     Number top = plus(times(z, z), (Number){ c.a - 1, c.b });
     Number bottom = { 2 * z.a + c.a - 2, 2 * z.b + c.b };
     Number q = over(top, bottom);
     return times(q, q);
 }
 
-static Number magnet2(Number z, Number c)
+static inline Number next_magnet2(const Fractal *f, Number z, Number c)
 {
+    (void)f;
     Number c1 = { c.a - 1, c.b }, c2 = { c.a - 2, c.b }, c12 = times(c1, c2), z2 = times(z, z);
     Number top = plus(times(z2, z), plus(times((Number){ 3 * c1.a, 3 * c1.b }, z), c12));
     Number bottom = plus((Number){ 3 * z2.a, 3 * z2.b }, plus(times((Number){ 3 * c2.a, 3 * c2.b }, z), c12));
@@ -153,30 +168,52 @@ static double captured(const Fractal *f, double smallest2, Number z)
     }
 }
 
-static double value(const void *params, const PatternPoint *at)
+/* An orbit that comes back to a point where it was goes round for ever: whole turns are left out. The point to come back to is taken
+ * anew whenever the steps have doubled (after Brent). The test hides behind the latency of the step. */
+static inline __attribute__((always_inline)) double orbit(const Fractal *f, Number z, Number c, double smallest2, Next *next, bool magnet)
 {
-    const Fractal *f = params;
-    Number z = { at->p.x, at->p.y }, c = z;
-    double smallest2 = size2(z), limit = 4;
-    bool magnet = f->kind >= MAGNET_MANDEL;
-    if (f->kind == JULIA || f->kind == MAGNET_JULIA)
-        c = (Number){ f->c.u, f->c.v };
-    if (f->kind == MAGNET_MANDEL) {
-        z = (Number){ 0, 0 };
-        smallest2 = 10000;
-    }
-    if (magnet)
-        limit = 10000;
-    for (int step = 0; step < f->iterations; step++) {
-        z = magnet ? (f->magnet == 1 ? magnet1(z, c) : magnet2(z, c))
-                   : plus(f->exponent == 2 ? times(z, z) : power(z, f->exponent), c);
+    double limit = magnet ? 10000 : 4;
+    Number mark = { NAN, NAN };
+    for (int step = 0, marked = 0; step < f->iterations; step++) {
+        z = next(f, z, c);
         double n = size2(z);
         if (n < smallest2)
             smallest2 = n;
         if (n > limit || (magnet && (z.a - 1) * (z.a - 1) + z.b * z.b < 0.0001))
             return escaped(f, step, z);
+        if (z.a == mark.a && z.b == mark.b)
+            step += (f->iterations - 1 - step) / (step - marked) * (step - marked);
+        if ((step & (step - 1)) == 0) {
+            mark = z;
+            marked = step;
+        }
     }
     return captured(f, smallest2, z);
+}
+
+/* In the heart and the largest disc of the Mandelbrot set, orbits run to one point or between two. The margin is for rounding. */
+static bool is_deep(Number c)
+{
+    static const double margin = 1e-9;
+    double x = c.a - 0.25, y2 = c.b * c.b, q = x * x + y2;
+    return q * (q + x) < 0.25 * y2 - margin || (c.a + 1) * (c.a + 1) + y2 < 0.0625 - margin;
+}
+
+static double value(const void *params, const PatternPoint *at)
+{
+    const Fractal *f = params;
+    Number p = { at->p.x, at->p.y }, c = { f->c.u, f->c.v }, zero = { 0, 0 };
+    switch (f->kind) {
+    case MANDEL:
+        c = p;
+        if (f->exponent == 2 && f->interior == 0 && is_deep(c))
+            return captured(f, 0, zero);
+        break;
+    case JULIA: break;
+    case MAGNET_MANDEL: return f->magnet == 1 ? orbit(f, zero, p, 10000, next_magnet1, true) : orbit(f, zero, p, 10000, next_magnet2, true);
+    case MAGNET_JULIA: return f->magnet == 1 ? orbit(f, p, c, size2(p), next_magnet1, true) : orbit(f, p, c, size2(p), next_magnet2, true);
+    }
+    return f->exponent == 2 ? orbit(f, p, c, size2(p), next_square, false) : orbit(f, p, c, size2(p), next_power, false);
 }
 
 const PatternOps pattern_mandel = {

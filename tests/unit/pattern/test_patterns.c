@@ -137,10 +137,49 @@ static void every_measured_warp_is_met(void **state)
     scene_free(s);
 }
 
+/* All the steps of z^2 + c, and what the interior types 1, 4 and 6 make of them. */
+static void captured(double re, double im, int steps, double out[3])
+{
+    double a = re, b = im, least = a * a + b * b;
+    for (int i = 0; i < steps; i++) {
+        double next = a * a - b * b + re;
+        b = a * b + a * b + im;
+        a = next;
+        least = fmin(least, a * a + b * b);
+    }
+    out[0] = sqrt(least);
+    out[1] = a * a;
+    out[2] = a * a + b * b;
+}
+
+static void whole_turns_of_an_orbit_may_be_left_out(void **state)
+{
+    (void)state;
+    static const double c[][2] = {             /* periods 1, 1, 2, 3, 4, 5 */
+        { 0, 0 }, { 0.1, -0.2 }, { -1.02, 0.03 }, { -0.13, 0.74 }, { -1.31, 0.01 }, { -0.505, 0.563 },
+    };
+    static const int steps[] = { 1, 2, 501, 502, 503, 504 }, type[3] = { 1, 4, 6 };
+    enum { N = sizeof c / sizeof *c, M = sizeof steps / sizeof *steps };
+    Scene *s = scene_new();
+    for (int i = 0; i < N * M * 3; i++) {
+        put(s, "#declare F%d = function { pattern { mandel %d interior %d, 1 frequency 0 } }\n", i, steps[i / 3 % M], type[i % 3]);
+        put(s, "#debug concat(str(F%d(%g,%g,0),0,13),\"\\n\")\n", i, c[i / 3 / M][0], c[i / 3 / M][1]);
+    }
+    run(s, N * M * 3);
+    for (int i = 0; i < N * M; i++) {
+        double expected[3];
+        captured(c[i / M][0], c[i / M][1], steps[i % M], expected);
+        for (int t = 0; t < 3; t++)
+            assert_float_equal(s->value[3 * i + t], expected[t], 1e-12);
+    }
+    scene_free(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_measured_pattern_is_met), cmocka_unit_test(every_measured_warp_is_met),
+        cmocka_unit_test(whole_turns_of_an_orbit_may_be_left_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
