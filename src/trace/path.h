@@ -58,10 +58,11 @@ typedef struct Layer {
     double opacity;
 } Layer;
 
-/* A texture that is the same everywhere, as far as it can be shaded without a hit. */
+/* A texture as far as it can be shaded before anything is hit: all of one that is the same everywhere. */
 typedef struct Coat {
     TextureLeaf leaf;                          /* all there is of it; top NULL: it is not the same everywhere */
-    bool matte;                                /* what is seen of it is glow, and what lights give to its layer */
+    bool matte;                                /* what is seen of it is glow, and what lights give to its top layer ... */
+    const Pigment *pattern;                    /* ... whose colour is this; NULL: the same everywhere */
     Layer layer;
     Rgb glow;
 } Coat;

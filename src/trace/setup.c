@@ -192,8 +192,7 @@ static const Coat *coats_new(Arena *arena, const Tracing *tracing, const World *
 {
     Coat *coat = arena_array(arena, Coat, w->n_textures + 1);
     for (uint32_t i = 1; i < w->n_textures; i++)
-        if (texture_is_flat(w->texture[i].texture))
-            coat_prepare(&coat[i], tracing, w->texture[i].texture);
+        coat_prepare(&coat[i], tracing, w->texture[i].texture);
     return coat;
 }
 

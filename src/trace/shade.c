@@ -274,14 +274,27 @@ static void shade_leaf(void *user, const TextureLeaf *leaf)
 void coat_prepare(Coat *coat, const Tracing *tracing, const Texture *texture)
 {
     double bailout = tracing->ticket.adc_bailout;
-    Colour c = texture->pigment->colour;
-    coat->leaf = (TextureLeaf){ .top = texture, .weight = 1 };
-    coat->layer = layer_of(tracing, texture->finish, c);
-    coat->glow = layer_glow(tracing, &coat->layer);
-    coat->matte = !tracing->radiosity && bailout < 1 && is_matte(tracing, bailout, texture->finish, c);
+    const Pigment *pigment = texture->pigment;
+    bool alone = !tracing->radiosity && bailout < 1;
+    if (texture_is_flat(texture)) {
+        Colour c = pigment->colour;
+        coat->leaf = (TextureLeaf){ .top = texture, .weight = 1 };
+        coat->layer = layer_of(tracing, texture->finish, c);
+        coat->glow = layer_glow(tracing, &coat->layer);
+        coat->matte = alone && is_matte(tracing, bailout, texture->finish, c);
+    } else if (texture->kind == TEXTURE_PLAIN && pigment->kind == PIGMENT_PATTERN && pigment->quick == NULL && pigment_is_opaque(pigment)) {
+        coat->matte = alone && is_matte(tracing, bailout, texture->finish, (Colour){ 0, 0, 0, 0, 0 });
+        coat->pattern = pigment;
+    }
 }
 
 /* ---- a hit ---- */
+
+/* Where textures are asked. */
+static inline Vec3 texture_place(const Shade *s)
+{
+    return s->material->flags & MATERIAL_UV ? vec3(s->surface->uv.u, s->surface->uv.v, 0) : s->at.point;
+}
 
 static void shade_texture(Shade *s, uint32_t texture)
 {
@@ -294,8 +307,36 @@ static void shade_texture(Shade *s, uint32_t texture)
         return;
     if (!s->at.hit)                            /* once: what a normal does to it is seen by the textures that follow */
         s->at = texture_context(s->t->tracing, s->surface, s->path->ray.d);
-    Vec3 p = s->material->flags & MATERIAL_UV ? vec3(s->surface->uv.u, s->surface->uv.v, 0) : s->at.point;
-    texture_resolve(&s->t->world->texture[texture], p, &s->at, shade_leaf, s);
+    texture_resolve(&s->t->world->texture[texture], texture_place(s), &s->at, shade_leaf, s);
+}
+
+/* The light of a matte coat, without a walk through its texture. False: something shines through it, if less than counts. */
+static inline bool shade_matte(Shade *s, const Coat *coat, uint32_t texture, Rgb *out)
+{
+    const Tracing *tracing = s->t->tracing;
+    s->lamps = s->path->ticket->lamps & ~(unsigned)LAMP_REMEMBERED;    /* nobody asks again */
+    if (coat->pattern == NULL) {
+        *out = rgb_add(coat->glow, shade_lights(s, &coat->layer, &s->surface->normal));
+        return true;
+    }
+    const PlacedTexture *placed = &s->t->world->texture[texture];
+    const Texture *top = placed->texture;
+    s->at = texture_context(tracing, s->surface, s->path->ray.d);
+    Vec3 p = texture_place(s), bumps;
+    if (placed->place != NULL)
+        p = affine_point_back(placed->place, p);
+    const Vec3 *n = &s->surface->normal;
+    if (top->normal != NULL && tracing->quality >= 8) {
+        TextureLeaf leaf = { .top = top, .p = p, .weight = 1, .place = placed->place };
+        bumps = texture_layer_bumps(&leaf, top, *n, &s->at);
+        n = &bumps;
+    }
+    Colour c = pigment_patterned(coat->pattern, &p, &s->at);
+    if (c.f != 0 || c.t != 0)
+        return false;
+    Layer layer = { top->finish, rgb_of(c), 1 };
+    *out = rgb_add(layer_glow(tracing, &layer), shade_lights(s, &layer, n));
+    return true;
 }
 
 /* One of several. */
@@ -324,14 +365,14 @@ Colour shade_hit(Tracer *t, const Path *path, const Hit *hit, int level)
     s.surface = &surface;
     s.material = m;
     s.lit_by = &tracing->lit_by[material];
-    s.lamps = path->ticket->lamps;
     s.spot = (Spot){ t, surface.p, &surface, path->in };
     const Coat *coat = &tracing->coat[texture];
-    if (coat->matte && surface.n_textures == 0) {
-        s.lamps &= ~(unsigned)LAMP_REMEMBERED; /* nobody asks again */
-        Colour c = colour_of(rgb_add(coat->glow, shade_lights(&s, &coat->layer, &surface.normal)), 0, 0);
+    Rgb light;
+    if (coat->matte && surface.n_textures == 0 && shade_matte(&s, coat, texture, &light)) {
+        Colour c = colour_of(light, 0, 0);
         return tracing->has_media ? media_bodies(t, path, m, hit->t, c) : c;
     }
+    s.lamps = path->ticket->lamps;
     s.interior = m->interior;
     s.depth = hit->t;
     s.level = level;
