@@ -38,6 +38,8 @@ static inline bool rgb_is_zero(Rgb c)           /* by all bits but the signs: on
     return ((bits[0] & 0x7fffffff7fffffff) | (bits[1] & 0x7fffffff)) == 0;
 }
 
+static inline bool rgb_same(Rgb a, Rgb b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }
+
 static inline Colour colour_add(Colour a, Colour b)
 {
     return (Colour){ a.r + b.r, a.g + b.g, a.b + b.b, a.f + b.f, a.t + b.t };

@@ -195,3 +195,23 @@ bool pigment_is_opaque(const Pigment *pigment)
     default: return map_is_opaque(&pigment->map);
     }
 }
+
+static bool dims(Colour c)
+{
+    return c.f >= 0 && c.t >= 0 && c.f + c.t <= 1 && c.r >= 0 && c.g >= 0 && c.b >= 0 && rgb_max(rgb_of(c)) <= 1;
+}
+
+bool pigment_dims(const Pigment *pigment)
+{
+    if (pigment->quick != NULL && !dims(*pigment->quick))
+        return false;
+    if (pigment->kind == PIGMENT_PLAIN)
+        return dims(pigment->colour);
+    if (pigment->kind != PIGMENT_PATTERN && pigment->kind != PIGMENT_UV)
+        return pigment_is_opaque(pigment);
+    BlendMap map = pigment->kind == PIGMENT_PATTERN ? map_of(pigment) : pigment->map;
+    for (uint32_t i = 0; i < map.n; i++)
+        if (map.kind == MAP_COLOUR ? !dims(map.entry[i].colour) : !pigment_dims(map.entry[i].pigment))
+            return false;
+    return true;
+}

@@ -138,3 +138,18 @@ bool texture_is_opaque(const Texture *texture)
             return false;
     return true;
 }
+
+/* Blends of what dims dim as well; averages may have weights of any sign. */
+bool texture_dims(const Texture *texture)
+{
+    if (texture->kind == TEXTURE_PLAIN) {
+        for (const Texture *layer = texture; layer != NULL; layer = layer->below)
+            if (!pigment_dims(layer->pigment))
+                return false;
+        return true;
+    }
+    for (uint32_t i = 0; i < texture->map.n; i++)
+        if (!texture_dims(texture->map.entry[i].texture))
+            return false;
+    return texture->kind != TEXTURE_AVERAGE;
+}

@@ -82,6 +82,10 @@ bool texture_is_flat(const Texture *texture);
 bool pigment_is_opaque(const Pigment *pigment);
 bool texture_is_opaque(const Texture *texture);
 
+/* Is what passes sure never to be more than what comes, but for roundings? */
+bool pigment_dims(const Pigment *pigment);
+bool texture_dims(const Texture *texture);
+
 /* The factor of iridescence (04, section 5.7) on a light's contribution; p: where the layer is asked. */
 Rgb finish_iridescence(const Finish *finish, Vec3 p, double cos_light, double cos_ray, Rgb wavelength, const TextureContext *at);
 

@@ -196,7 +196,7 @@ static inline Rgb answer(const Lit *lit, unsigned lamp, const Vec3 *l, Facing fa
     const Finish *f = layer->finish;
     Rgb sum = rgb_grey(0);
     double k = diffuse_strength(f, facing.behind);
-    if (k > 0) {                               /* opacity may be negative: a colour with filter + transmit above 1 */
+    if (k > 0 && (layer->opacity != 0 || grain != 0)) {  /* opacity may be negative: filter + transmit above 1 */
         double cosine = fabs(facing.cosine);
         double intensity = f->traits & FINISH_BRILLIANT ? pow(cosine, (double)f->brilliance) : cosine;
         sum = rgb_scaled(layer->colour, (float)(intensity * k * layer->opacity - grain));
@@ -294,7 +294,16 @@ static Rgb illuminate_grainy(const Lit *lit, uint32_t index, unsigned lamp, Beam
     return rgb_mul(iridescent(lit, &beam->l, factor), beam->colour);
 }
 
-static inline Rgb illuminate(const Lit *lit, uint32_t index)
+/* Less than this of a light can hardly be seen beside anything else. Shadows leave less than FAINT_MOST times a light (shadows_dim). */
+static const float FAINT = 1e-8f, FAINT_MOST = 4;
+
+static inline bool is_faint(Rgb c)
+{
+    return rgb_max(c) < FAINT && c[0] >= 0 && c[1] >= 0 && c[2] >= 0;
+}
+
+/* faint, if not NULL: what there may be on top of the result. */
+__attribute__((always_inline)) static inline Rgb illuminate(const Lit *lit, uint32_t index, Rgb *faint)
 {
     Shade *s = lit->s;
     const Light *light = &s->t->world->light[index];
@@ -314,23 +323,52 @@ static inline Rgb illuminate(const Lit *lit, uint32_t index)
     if (lit->layer->finish->traits & FINISH_GRAINY)
         return illuminate_grainy(lit, index, lamp, &beam, facing);
     Rgb factor = answer(lit, lamp, &beam.l, facing, 0);
-    if (rgb_is_zero(factor) || !shadowed(s, index, lamp, &beam))
+    if (rgb_is_zero(factor))
+        return rgb_grey(0);
+    if (faint != NULL && (lamp & (LAMP_SHADED | LAMP_AREA)) == LAMP_SHADED && is_faint(rgb_mul(factor, beam.colour))) {
+        *faint = rgb_scaled(rgb_mul(factor, beam.colour), FAINT_MOST);
+        return rgb_grey(0);
+    }
+    if (!shadowed(s, index, lamp, &beam))
         return rgb_grey(0);
     return rgb_mul(iridescent(lit, &beam.l, factor), beam.colour);
+}
+
+static inline bool lit_start(Lit *lit, Shade *s, const Layer *layer, const Vec3 *n)
+{
+    if (!(layer->finish->traits & FINISH_LIT) || (s->t->vain && s->path->ticket->bounces == 0))
+        return false;
+    lit->s = s;
+    lit->layer = layer;
+    lit->n = n;
+    gloss_start(&lit->gloss, s, layer->finish, n);
+    return true;
 }
 
 Rgb shade_lights(Shade *s, const Layer *layer, const Vec3 *n)
 {
     Rgb sum = rgb_grey(0);
-    if (!(layer->finish->traits & FINISH_LIT) || (s->t->vain && s->path->ticket->bounces == 0))
-        return sum;
     Lit lit;
-    lit.s = s;
-    lit.layer = layer;
-    lit.n = n;
-    gloss_start(&lit.gloss, s, layer->finish, n);
+    if (!lit_start(&lit, s, layer, n))
+        return sum;
     const LightList *list = s->lit_by;
     for (uint32_t i = 0; i < list->n; i++)
-        sum = rgb_add(sum, illuminate(&lit, list->light[i]));
+        sum = rgb_add(sum, illuminate(&lit, list->light[i], NULL));
+    return sum;
+}
+
+Rgb shade_lights_loosely(Shade *s, const Layer *layer, const Vec3 *n, Rgb *most)
+{
+    Rgb sum = rgb_grey(0);
+    *most = sum;
+    Lit lit;
+    if (!lit_start(&lit, s, layer, n))
+        return sum;
+    const LightList *list = s->lit_by;
+    for (uint32_t i = 0; i < list->n; i++) {
+        Rgb faint = rgb_grey(0), light = illuminate(&lit, list->light[i], &faint);
+        sum = rgb_add(sum, light);
+        *most = rgb_add(*most, rgb_add(light, faint));
+    }
     return sum;
 }

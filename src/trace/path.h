@@ -91,6 +91,7 @@ struct Tracing {
     bool has_media;                            /* in some body */
     bool has_air;                              /* fog, rainbows or media lie in front of what is seen */
     bool air_dims;                             /* fog or media weaken light where it meets no surface */
+    bool shadows_dim;                          /* none brightens a light by more than roundings, nor takes chances */
     MediaLimit *media_limit;    uint32_t n_media_limits;       /* of media that sample adaptively */
     const FogDef *const *fog;   uint32_t n_fog;        /* those that are on */
     Bow *bow;                   uint32_t n_bows;
@@ -199,8 +200,9 @@ static inline bool shade_gives_up(const Shade *s, double weight)
 }
 
 Colour shade_reflect(const Shade *s, const Polish *polish, double weight);     /* iridescent, not weighed */
-/* Adds what passes through the surface to sum; returns whether all of it is reflected. top: of the top layer. */
-bool shade_transmit(const Shade *s, const Polish *top, Rgb filter, bool filtered, double through, Colour *sum);
+typedef struct Passed { Rgb light; float t; } Passed;          /* t: how much of the background, as alpha has it */
+/* What passes through the surface; returns whether all of it is reflected: t then stays. top: of the top layer. */
+bool shade_transmit(const Shade *s, const Polish *top, Rgb filter, bool filtered, double through, Passed *passed);
 
 /* light.c */
 bool light_is_plain(const Light *light);
@@ -208,6 +210,9 @@ bool light_is_plain(const Light *light);
 void light_towards(const Light *light, Vec3 from, Vec3 p, Beam *out);      /* all but the colour */
 bool light_beam(const Light *light, Vec3 from, Vec3 p, Rgb colour, Beam *out);      /* false: no light */
 Rgb shade_lights(Shade *s, const Layer *layer, const Vec3 *n);         /* n: perturbed */
+/* Leaves faint lights away, without asking for their shadows; with all that those may let through it would be *most. For scenes
+ * with shadows_dim, and finishes without grain and film. */
+Rgb shade_lights_loosely(Shade *s, const Layer *layer, const Vec3 *n, Rgb *most);
 
 static inline bool is_dark(Rgb c)
 {

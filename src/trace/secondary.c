@@ -133,7 +133,7 @@ static Rgb dimming(const Shade *s, bool leaves)
     return dim;
 }
 
-bool shade_transmit(const Shade *s, const Polish *top, Rgb filter, bool filtered, double through, Colour *sum)
+bool shade_transmit(const Shade *s, const Polish *top, Rgb filter, bool filtered, double through, Passed *passed)
 {
     Crossing c = crossing_of(s);
     double weight = s->path->weight * (double)rgb_max_abs(filter), wavelength = s->path->wavelength;
@@ -146,10 +146,11 @@ bool shade_transmit(const Shade *s, const Polish *top, Rgb filter, bool filtered
     else
         seen = bent(s, &c, top, c.dispersion != 1 && wavelength != 0 ? ratio_at(&c, wavelength) : c.ratio, wavelength, weight, &total);
     Rgb dim = dimming(s, c.place >= 0);
-    Rgb light = rgb_mul(rgb_of(seen), dim);
-    if (!total && filtered)
-        light = rgb_mul(light, filter);
-    float t = total ? sum->t : rgb_greyness(dim) * seen.t * (filtered ? (float)through : 1);
-    *sum = colour_of(rgb_add(rgb_of(*sum), light), 0, t);
-    return total;
+    passed->light = rgb_mul(rgb_of(seen), dim);
+    if (total)
+        return true;
+    if (filtered)
+        passed->light = rgb_mul(passed->light, filter);
+    passed->t = rgb_greyness(dim) * seen.t * (filtered ? (float)through : 1);
+    return false;
 }

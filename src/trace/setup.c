@@ -147,6 +147,25 @@ static bool has_media(const World *w)
     return false;
 }
 
+static bool interior_dims(const Interior *i)
+{
+    Rgb c = i->fade_colour;
+    return i->caustics == 0 && i->fade_distance >= 0 && c[0] >= 0 && c[1] >= 0 && c[2] >= 0 && rgb_max(c) <= 1;
+}
+
+static bool shadows_dim(const World *w, const Tracing *tracing)
+{
+    if (tracing->has_media || tracing->air_dims)
+        return false;
+    for (uint32_t i = 0; i < w->n_interiors; i++)
+        if (!interior_dims(w->interior[i].interior))
+            return false;
+    for (uint32_t i = 1; i < w->n_textures; i++)
+        if (!w->texture[i].opaque && !texture_dims(w->texture[i].texture))
+            return false;
+    return true;
+}
+
 static bool wants_stream(const World *w, const Tracing *tracing)
 {
     if (tracing->has_media || w->scene->n_media > 0)
@@ -228,6 +247,7 @@ const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha
         tracing->stream = arena_array(arena, double, STREAM_SIZE);
         stream_fill(tracing->stream);
     }
+    tracing->shadows_dim = shadows_dim(w, tracing);
     hue_fill(tracing->hue);
     return tracing;
 }

@@ -7,6 +7,7 @@ typedef struct Mirror {
     Polish polish;
     Rgb share;
     double weight;
+    Rgb light;                                 /* once its ray is back */
 } Mirror;
 
 typedef struct Mirrors {
@@ -24,6 +25,8 @@ typedef struct Stack {                         /* a leaf's layers, as far as the
     Rgb sum, filter;
     double through;
     bool filtered;                             /* some layer had a colour */
+    bool open;                                 /* some shadows are still to be asked for: they leave from `sum` up to `most` */
+    Rgb most, own;                             /* own: without any lights */
 } Stack;
 
 /* ---- reflectivity ---- */
@@ -140,13 +143,11 @@ static inline Rgb layer_glow(const Tracing *tracing, const Layer *layer)
     return rgb_scaled(rgb_mul(layer->colour, glow), (float)layer->opacity);
 }
 
-/* What the layer sends towards the viewer, mirrors left aside. */
-static inline Rgb layer_light(Shade *s, const Layer *layer, const Vec3 *n, Rgb filter, Around *around)
+/* What the layer sends towards the viewer without lights, mirrors left aside. */
+static inline Rgb layer_own(Shade *s, const Layer *layer, const Vec3 *n, Rgb filter, Around *around)
 {
     Rgb light = layer_glow(s->t->tracing, layer);
-    if (s->t->tracing->radiosity)
-        light = rgb_add(light, light_around(s, layer, n, filter, around));
-    return rgb_add(light, shade_lights(s, layer, n));
+    return s->t->tracing->radiosity ? rgb_add(light, light_around(s, layer, n, filter, around)) : light;
 }
 
 /* What is seen of a layer before any light falls on it. */
@@ -183,6 +184,18 @@ static inline float kept(float share)          /* of the light that conserves it
     return 1 - share < 1 ? 1 - share : 1;
 }
 
+static Rgb layer_light(Shade *s, const Look *look, Stack *k, Around *around)
+{
+    Rgb own = layer_own(s, &look->layer, look->n, k->filter, around);
+    if (!k->open)
+        return rgb_add(own, shade_lights(s, &look->layer, look->n));
+    Rgb most, least = shade_lights_loosely(s, &look->layer, look->n, &most);
+    k->open = !rgb_same(least, most);
+    k->own = own;
+    k->most = rgb_add(own, most);
+    return rgb_add(own, least);
+}
+
 static void add_layer(Shade *s, const Look *look, Stack *k, Mirrors *mirrors, Around *around)
 {
     Colour c = look->colour;
@@ -194,7 +207,7 @@ static void add_layer(Shade *s, const Look *look, Stack *k, Mirrors *mirrors, Ar
             share = reflectivity(s, &look->layer, look->n);
             remember_mirror(s, look->layer.finish, look->n, share, k->through, mirrors);
         }
-        k->sum = rgb_add(k->sum, rgb_mul(layer_light(s, &look->layer, look->n, k->filter, around), k->filter));
+        k->sum = rgb_add(k->sum, rgb_mul(layer_light(s, look, k, around), k->filter));
     }
     if (look->found) {
         k->filter = rgb_mul(k->filter, colour_transmittance(c));
@@ -211,6 +224,40 @@ static bool same_normal(Vec3 a, Vec3 b)
     return fabs(a.x - b.x) <= TINY && fabs(a.y - b.y) <= TINY && fabs(a.z - b.z) <= TINY;
 }
 
+/* Highlights of a clear thing, and no other light of lights. */
+static bool shines_only(const Tracing *tracing, const Texture *texture, const Layer *layer)
+{
+    return tracing->shadows_dim && tracing->quality > 1 && texture->below == NULL && layer->finish->traits & FINISH_GLOSSY &&
+           !(layer->finish->traits & (FINISH_GRAINY | FINISH_FILM)) && (layer->opacity == 0 || layer->finish->diffuse == 0);
+}
+
+/* What the layers send, and what the rays have brought. */
+static Rgb all_seen(Rgb layers, const Mirrors *mirrors, const Passed *passed)
+{
+    Rgb sum = rgb_add(rgb_add(layers, mirrors->rest), passed->light);
+    for (uint32_t i = 0; i < mirrors->n; i++)
+        sum = rgb_add(sum, mirrors->mirror[i].light);
+    return sum;
+}
+
+/* Sends the rays of a leaf, and sees its layers under what they bring. Highlights of clear things are faint nearly everywhere: where
+ * more light passes, all sums come out alike whoever hides the light, and nobody need ask (rounding is monotone). */
+static Rgb shade_rays(Shade *s, const Polish *top, const Look *look, const Stack *k, Mirrors *mirrors, Passed *passed)
+{
+    bool total = false;
+    if (k->through > s->path->ticket->adc_bailout && s->t->tracing->quality >= 6)
+        total = shade_transmit(s, top, k->filter, k->filtered, k->through, passed);
+    for (uint32_t i = 0; i < mirrors->n; i++) {
+        Mirror *m = &mirrors->mirror[i];
+        bool came_back = total && same_normal(m->polish.n, top->n);    /* the same light, already */
+        m->light = came_back ? rgb_grey(0) : mirror_light(s, m);
+    }
+    Rgb seen = all_seen(k->sum, mirrors, passed);
+    if (!k->open || rgb_same(seen, all_seen(k->most, mirrors, passed)))
+        return seen;
+    return all_seen(rgb_add(k->own, shade_lights(s, &look->layer, look->n)), mirrors, passed);
+}
+
 /* The way of all leaves that mirror or let through, the top layer looked at. */
 static void shade_stack(Shade *s, const TextureLeaf *leaf, Look *look)
 {
@@ -220,6 +267,8 @@ static void shade_stack(Shade *s, const TextureLeaf *leaf, Look *look)
     k.filter = rgb_grey(1);
     k.through = 1;
     k.filtered = false;
+    k.most = k.own = rgb_grey(0);
+    k.open = shines_only(s->t->tracing, leaf->top, &look->layer);
     Polish top = { leaf->top->finish, *look->n };
     Around around;                             /* not cleared, as the mirrors: large, and few */
     around.known = false;
@@ -233,17 +282,9 @@ static void shade_stack(Shade *s, const TextureLeaf *leaf, Look *look)
             break;
         look_at(s, leaf, texture, look);
     }
-    Colour c = colour_of(rgb_add(k.sum, mirrors.rest), 0, 0);
-    bool total = false;
-    if (k.through > bailout && s->t->tracing->quality >= 6)
-        total = shade_transmit(s, &top, k.filter, k.filtered, k.through, &c);
-    for (uint32_t i = 0; i < mirrors.n; i++) {
-        if (total && same_normal(mirrors.mirror[i].polish.n, top.n))
-            continue;                          /* the same light came back already */
-        Rgb light = mirror_light(s, &mirrors.mirror[i]);
-        c = colour_of(rgb_add(rgb_of(c), light), 0, c.t);
-    }
-    s->sum = colour_add(s->sum, colour_scaled(c, leaf->weight));
+    Passed passed = { rgb_grey(0), 0 };
+    Rgb seen = shade_rays(s, &top, look, &k, &mirrors, &passed);
+    s->sum = colour_add(s->sum, colour_scaled(colour_of(seen, 0, passed.t), leaf->weight));
 }
 
 /* Does the top layer hide all below, and mirror nothing? */
@@ -266,7 +307,8 @@ static void shade_leaf(void *user, const TextureLeaf *leaf)
     }
     Around around;
     around.known = false;
-    Rgb light = rgb_scaled(layer_light(s, &look.layer, look.n, rgb_grey(1), &around), leaf->weight);
+    Rgb own = layer_own(s, &look.layer, look.n, rgb_grey(1), &around);
+    Rgb light = rgb_scaled(rgb_add(own, shade_lights(s, &look.layer, look.n)), leaf->weight);
     s->sum = colour_of(rgb_add(rgb_of(s->sum), light), s->sum.f, s->sum.t);
 }
 

@@ -52,6 +52,27 @@ static void layers_under_an_opaque_one_are_dropped(void **state)
     arena_free(&a);
 }
 
+static void what_passes_more_than_comes_does_not_dim(void **state)
+{
+    (void)state;
+    const Colour bright = { 2, 1, 1, 0.5f, 0 }, twice = { 1, 1, 1, 0.5f, 0.6f }, negative = { 1, 1, 1, -0.5f, 0 };
+    assert_true(pigment_dims(&(Pigment){ .colour = glass }));
+    assert_false(pigment_dims(&(Pigment){ .colour = bright }));
+    assert_false(pigment_dims(&(Pigment){ .colour = twice }));
+    assert_false(pigment_dims(&(Pigment){ .colour = negative }));
+    assert_false(pigment_dims(&(Pigment){ .colour = glass, .quick = &twice }));
+    MapEntry entry[2];
+    Pigment dim = map_of_two(entry, red, glass);
+    Texture bottom = { .pigment = &dim }, top = { .pigment = &dim, .below = &bottom };
+    assert_true(texture_dims(&top));
+    entry[1].colour = bright;
+    assert_false(texture_dims(&top));
+    entry[1].colour = glass;
+    MapEntry texture = { .key = -1, .texture = &top };
+    assert_true(texture_dims(&(Texture){ .kind = TEXTURE_PATTERN, .pattern = &nothing, .map = { MAP_TEXTURE, 1, &texture } }));
+    assert_false(texture_dims(&(Texture){ .kind = TEXTURE_AVERAGE, .pattern = &nothing, .map = { MAP_TEXTURE, 1, &texture } }));
+}
+
 static void textures_in_maps_are_pruned_too(void **state)
 {
     (void)state;
@@ -73,6 +94,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_map_of_one_colour_becomes_plain),
         cmocka_unit_test(layers_under_an_opaque_one_are_dropped),
+        cmocka_unit_test(what_passes_more_than_comes_does_not_dim),
         cmocka_unit_test(textures_in_maps_are_pruned_too),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

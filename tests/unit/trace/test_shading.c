@@ -239,6 +239,10 @@ static void short_ways_lead_to_the_same_bytes(void **state)
           "rgb 1 } plane { <-1,-2,9>, 0 inverse pigment { rgb .5 }" },
         { "rgb 1 } plane { z, 0 pigment { rgb .5 } } box { <-2,-2,-.2>, <0,2,-.1> pigment { rgbf <.9,.5,.2,.6> }",
           "rgb 1 } plane { z, 0 pigment { rgb .5 } } box { <-2,-2,-.2>, <0,2,-.1> pigment { rgbf <.9,.5,.2,.6> quick_colour rgb 1 }" },
+        { "rgb 1 } plane { z, 0 pigment { rgb .5 } } sphere { <.5,1,-2>, .4 } box { <-2,-2,-.2>, <1,2,-.1> rotate 9*y "
+          "pigment { rgbf 1 } finish { specular .9 roughness .002 diffuse 0 ambient 0 }",                  /* faint highlights */
+          "rgb 1 } plane { z, 0 pigment { rgb .5 } } sphere { <.5,1,-2>, .4 } box { <-2,-2,-.2>, <1,2,-.1> rotate 9*y "
+          "pigment { rgbf 1 quick_colour rgbf 2 } finish { specular .9 roughness .002 diffuse 0 ambient 0 }" },
     };
     WhitOptions options = { .width = 8, .height = 6, .threads = 1 };
     for (size_t i = 0; i < COUNT(pairs); i++) {
