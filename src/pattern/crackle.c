@@ -29,7 +29,7 @@ static bool item(Parser *p, void *params)
     else if (parse_accept(p, KW_OFFSET))
         c->offset = parse_float(p);
     else if (parse_accept(p, KW_SOLID))
-        c->solid = parse_optional_bool(p, true);
+        c->solid = true;
     else
         return false;
     return true;

@@ -109,11 +109,15 @@ static bool item(Parser *p, void *params)
 
 static void parse(Parser *p, void *params)
 {
+    (void)p;
     Params *d = params;
     *d = (Params){ .sides = 3, .cells = 1, .number = 1 };
     choose(d);
-    while (item(p, d))
-        continue;
+}
+
+static void finish(Parser *p, const void *params)
+{
+    const Params *d = params;
     if (d->row == NULL)
         parse_fail(p, "pavement: no pattern %d with number_of_sides %d and number_of_tiles %d", d->number, d->sides, d->cells);
 }
@@ -368,5 +372,5 @@ static double value(const void *params, const PatternPoint *at)
 }
 
 const PatternOps pattern_pavement = {
-    .keyword = "pavement", .params_size = sizeof(Params), .parse = parse, .item = item, .value = value,
+    .keyword = "pavement", .params_size = sizeof(Params), .parse = parse, .item = item, .finish = finish, .value = value,
 };

@@ -93,6 +93,7 @@ struct PatternOps {
     Wave default_wave;
     void (*parse)(Parser *p, void *params);    /* after the keyword: `gradient V`, `spiral1 n`; may be NULL */
     bool (*item)(Parser *p, void *params);     /* optional: later items of the block, as for shapes (`metric`, `mortar`) */
+    void (*finish)(Parser *p, const void *params);     /* optional: checks them when the block ends */
     double (*value)(const void *params, const PatternPoint *at);       /* before frequency, phase and wave */
     /* Optional: the same for n <= PATTERN_MANY points without a context. */
     void (*values)(const void *params, const Pattern *pattern, const Vec3 *p, double *out, int n);

@@ -91,6 +91,7 @@ typedef enum PigmentKind {
 
 struct Pigment {
     PigmentKind kind;
+    bool untyped;                              /* neither colour nor pattern yet: black, but what is said waits for a pattern */
     Colour colour;
     const Colour *quick;                       /* NULL: no quick_color */
     const Pattern *pattern;                    /* NULL for a plain colour; the chain alone counts for average and image */

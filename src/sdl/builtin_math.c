@@ -7,6 +7,7 @@
 #include "image/image.h"
 #include "math/noise.h"
 #include "scene/image_map.h"
+#include "sdl/blocks.h"
 #include "sdl/parser.h"
 
 #define DEGREE (PI / 180)
@@ -235,7 +236,7 @@ static double inside(Parser *p, Loc loc)
     parse_comma(p);
     Vec3 at = vector(p);
     parse_expect(p, TOK_RPAREN);
-    if (o->kind == OBJECT_LIGHT || (o->kind == OBJECT_SHAPE && (o->ops->flags & SHAPE_PATCH)))
+    if (object_is_patch(o))
         fail(p->diag, loc, "Solid object identifier expected.");
     return p->host->inside(p->host->user, o, at);
 }

@@ -316,7 +316,8 @@ static void run_for(Parser *p, const Token *t)
     double from = expr_full_float(p);
     parse_comma(p);
     double end = expr_full_float(p), step = 1;
-    if (parse_accept(p, TOK_COMMA))
+    parse_comma(p);
+    if (parse_peek(p) != TOK_RPAREN)           /* POV: the comma before the step may stand or lack */
         step = expr_full_float(p);
     parse_expect(p, TOK_RPAREN);
     p->suspended = was;

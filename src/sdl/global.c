@@ -125,6 +125,8 @@ static void radiosity(Parser *p, Scene *scene)
     while (radiosity_item(p, r, &reuse))
         ;
     block_close(p, "radiosity");
+    if (r->pretrace_end > r->pretrace_start)
+        parse_fail(p, "Radiosity pretrace end must be smaller than or equal to pretrace start.");
     if (reuse.minimum && reuse.maximum && r->minimum_reuse >= r->maximum_reuse)
         parse_fail(p, "Radiosity maximum_reuse must be larger than minimum_reuse.");
     if (r->minimum_reuse > r->maximum_reuse / 2) {

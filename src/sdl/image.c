@@ -136,17 +136,15 @@ static void read_gamma(Parser *p, ImageReading *how)
     how->gamma = (Transfer){ TRANSFER_POWER, g };
 }
 
-static void read_image(Parser *p, ImageUse use, ImageMap *map)
+static void read_image(Parser *p, ImageUse use, bool gradient, ImageMap *map)
 {
     const Globals *g = &parse_blocks(p)->scene->globals;
     ImageReading how = {
         .colour = use == IMAGE_COLOUR, .has_assumed_gamma = g->has_assumed_gamma, .working = working_space(g),
         .version = p->version_given ? p->version : 362,
     };
-    if (parse_peek(p) == TOK_LESS) {           /* POV: old scenes give a gradient vector here, which means nothing now */
-        (void)parse_vec3(p);
-        parse_comma(p);
-    }
+    if (gradient && parse_at_number(p) && !parse_at_colour(p))
+        (void)parse_vec3(p);                   /* POV: old scenes give a gradient vector here, which means nothing now */
     if (parse_peek(p) == KW_FUNCTION) {
         map->image = function_image(p);
         return;
@@ -288,7 +286,7 @@ const ImageMap *image_items(Parser *p, ImageUse use, float *amount)
 {
     ImageMap *map = arena_new(p->arena, ImageMap);
     map->repeat = (Vec2){ 1, 1 };
-    read_image(p, use, map);
+    read_image(p, use, true, map);
     parse_comma(p);
     while (item(p, use, map, amount))
         parse_comma(p);
@@ -313,6 +311,6 @@ const ImageMap *parse_image(Parser *p)
 {
     ImageMap *map = arena_new(p->arena, ImageMap);
     map->repeat = (Vec2){ 1, 1 };
-    read_image(p, IMAGE_VALUE, map);
+    read_image(p, IMAGE_VALUE, false, map);
     return map;
 }

@@ -36,7 +36,7 @@ static void colour_entry(Parser *p, Entries *e)
         parse_expected(p, "color");
     entry.colour = parse_colour(p);
     append(p, e, entry);
-    parse_comma(p);
+    parse_expect(p, KW_COLOR);
     entry.key = (float)terms[0];
     entry.colour = parse_colour(p);
     append(p, e, entry);
@@ -179,8 +179,7 @@ BlendMap parse_pattern_list(Parser *p, const PatternOps *ops, PatternUse use)
         }
         entry.key = (float)e.n;
         append(p, &e, entry);
-        if (e.n < n_items)
-            parse_comma(p);
+        parse_comma(p);                        /* POV: also after the last */
     }
     while (e.n < n_items) {
         MapEntry entry = missing(p, ops, kind, use, e.n);

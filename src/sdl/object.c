@@ -349,19 +349,33 @@ static void complete(Parser *p, Object *o)
         o->importance = parse_blocks(p)->default_importance;
 }
 
+/* A word of the shape itself: `threshold`, `inside_vector`. */
+static bool own_item(Parser *p, Object *o, const ShapeOps *own, void *params)
+{
+    int keyword = parse_peek(p);
+    if (own == NULL || own->item == NULL || !own->item(p, params))
+        return false;
+    if (keyword == KW_INSIDE_VECTOR)
+        o->flags |= OBJECT_HAS_INSIDE;
+    return true;
+}
+
 /* To the brace that closes `word`. own, params: the shape's own further items; NULL when it is a copy of an identifier. */
 static void modifiers(Parser *p, ObjectDraft *d, const char *word, const ShapeOps *own, void *params)
 {
     Object *o = &d->o;
+    bool modified = false;                     /* the shape's own words come first, `open` among them */
     for (;;) {
         int keyword = parse_peek(p);
         Affine move;
         if (keyword == TOK_CLOSE)
             break;
-        if (own != NULL && own->item != NULL && own->item(p, params)) {
-            if (keyword == KW_INSIDE_VECTOR)
-                o->flags |= OBJECT_HAS_INSIDE;
-        } else if (parse_move(p, &move)) {
+        bool is_own = own_item(p, o, own, params);
+        if (modified && (is_own || keyword == KW_OPEN))
+            parse_mend(p, "A word of the shape itself behind its modifiers");
+        if (is_own)
+            continue;
+        if (parse_move(p, &move)) {
             draft_move(p, d, &move);
         } else if (!(o->kind != OBJECT_LIGHT_GROUP && texture_item(p, o, keyword)) && !plain_modifier(p, d, keyword)) {
             if (!parse_at_colour(p))
@@ -369,6 +383,7 @@ static void modifiers(Parser *p, ObjectDraft *d, const char *word, const ShapeOp
             parse_warn(p, "Quick color belongs in texture. Color ignored.");
             (void)parse_colour(p);
         }
+        modified |= keyword != KW_OPEN;
     }
     if (own != NULL && own->finish != NULL)
         own->finish(p, params);

@@ -265,6 +265,9 @@ const Pattern *pattern_close(Parser *p, PatternDraft *d)
 {
     if (!d->changed)
         return d->base;
+    const PatternOps *ops = d->pattern.ops;
+    if (d->own_params && ops != NULL && ops->finish != NULL)
+        ops->finish(p, d->pattern.params);
     flush(parse_arena(p), d);
     if (d->pattern.depth > 1)
         pattern_depth_add(p, d->pattern.depth - 1u);

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-const Pigment PIGMENT_EMPTY = { .kind = PIGMENT_PLAIN };
+const Pigment PIGMENT_EMPTY = { .kind = PIGMENT_PLAIN, .untyped = true };
 
 static const MapEntry grey[] = { { .key = 0, .colour = { 0 } }, { .key = 1, .colour = { 1, 1, 1, 0, 0 } } };
 
@@ -31,7 +31,8 @@ static void choose(Parser *p, Pigment *g, PatternDraft *d, const PatternOps *ops
 {
     if (ops->flags & PATTERN_NORMAL_ONLY)
         parse_fail(p, "Keyword '%s' can only be used in a normal statement.", ops->keyword);
-    bool fresh = g->kind != PIGMENT_PATTERN || is_default_map(&g->map, d->pattern.ops);
+    bool waiting = g->untyped && g->map.n > 0;
+    bool fresh = !waiting && (g->kind != PIGMENT_PATTERN || is_default_map(&g->map, d->pattern.ops));
     g->kind = PIGMENT_PATTERN;
     pattern_choose(p, d, ops);
     if (ops->flags & PATTERN_LIST) {
@@ -74,7 +75,7 @@ static bool choose_kind(Parser *p, Pigment *g, PatternDraft *d, PatternUse use)
 
 static void refuse_map(Parser *p, const Pigment *g, const PatternDraft *d, int keyword)
 {
-    if (g->kind == PIGMENT_PLAIN || g->kind == PIGMENT_IMAGE || is_list(d) || (g->kind == PIGMENT_AVERAGE && keyword == KW_COLOR_MAP))
+    if ((g->kind == PIGMENT_PLAIN && !g->untyped) || g->kind == PIGMENT_IMAGE || is_list(d) || (g->kind == PIGMENT_AVERAGE && keyword == KW_COLOR_MAP))
         parse_fail(p, "Cannot use %s with this pattern type.", parse_word(keyword));
 }
 
@@ -142,6 +143,10 @@ const Pigment *pigment_of_colour(Parser *p, Colour c)
 
 static const Pigment *close_body(Parser *p, Pigment *g, PatternDraft *d, const Pigment *base)
 {
+    if (g->untyped && g->kind == PIGMENT_PLAIN) {
+        g->pattern = pattern_close(p, d);
+        return memcmp(g, base, sizeof *g) == 0 ? base : arena_copy(parse_arena(p), g, sizeof *g);
+    }
     if (g->kind == PIGMENT_PLAIN) {
         *g = (Pigment){ .kind = PIGMENT_PLAIN, .colour = g->colour, .quick = g->quick };
         if (g->quick == NULL)
@@ -177,7 +182,9 @@ static const Pigment *body(Parser *p, const Pigment *base, PatternUse use)
     Pigment g = *base;
     PatternDraft d;
     pattern_begin(&d, base->pattern);
-    if (!choose_kind(p, &g, &d, use) && known == NULL)
+    if (choose_kind(p, &g, &d, use))
+        g.untyped = false;
+    else if (known == NULL)
         parse_warn(p, "Pigment type unspecified or not 1st item.");
     while (modifier(p, &g, &d, use))
         ;
@@ -197,9 +204,10 @@ const Pigment *pigment_old_item(Parser *p, const Pigment *base)
     Pigment g = *base;
     PatternDraft d;
     pattern_begin(&d, base->pattern);
-    if (choose_kind(p, &g, &d, USE_PIGMENT))
+    if (choose_kind(p, &g, &d, USE_PIGMENT)) {
+        g.untyped = false;
         d.pattern.wave = WAVE_RAMP;
-    else if (!modifier(p, &g, &d, USE_PIGMENT))
+    } else if (!modifier(p, &g, &d, USE_PIGMENT))
         return NULL;
     return close_body(p, &g, &d, base);
 }

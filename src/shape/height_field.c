@@ -126,7 +126,7 @@ static bool item(Parser *p, void *params)
         double level = parse_float(p);
         f->water = TOP * (parse_version(p) < 200 ? level / 256 : level);
     } else if (parse_accept(p, KW_SMOOTH))
-        f->smooth = parse_optional_bool(p, true);
+        f->smooth = true;
     else
         return false;
     parse_comma(p);

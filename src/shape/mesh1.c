@@ -176,12 +176,24 @@ static Index3 *whole(Arena *a, Faces *list, uint32_t n)
 static void parse(Parser *p, void *params)
 {
     MeshParams *m = params;
+    m->soup = arena_new(parse_arena(p), Soup);
+}
+
+static bool item(Parser *p, void *params)
+{
+    int kind = parse_peek(p);
+    if (kind != KW_TRIANGLE && kind != KW_SMOOTH_TRIANGLE)
+        return mesh_item(p, params);
+    parse_skip(p);
+    triangle(p, params, kind == KW_SMOOTH_TRIANGLE);
+    return true;
+}
+
+static void finish(Parser *p, void *params)
+{
+    MeshParams *m = params;
     Arena *a = parse_arena(p);
-    Soup *s = m->soup = arena_new(a, Soup);
-    for (int kind = parse_peek(p); kind == KW_TRIANGLE || kind == KW_SMOOTH_TRIANGLE; kind = parse_peek(p)) {
-        parse_skip(p);
-        triangle(p, m, kind == KW_SMOOTH_TRIANGLE);
-    }
+    Soup *s = m->soup;
     m->n_faces = s->face.n;
     if (m->n_faces == 0)
         parse_fail(p, "No triangles in triangle mesh.");
@@ -202,6 +214,7 @@ static void parse(Parser *p, void *params)
 
 const ShapeOps shape_mesh = {
     .keyword = "mesh", .params_size = sizeof(MeshParams),
-    .flags = SHAPE_HAS_HIERARCHY | SHAPE_HAS_UV | SHAPE_SHARED | SHAPE_SMOOTH, .parse = parse, .item = mesh_item,
-    .compile = mesh_compile, .hits = mesh_hits, .inside = mesh_inside, .surface = mesh_surface, .extent = mesh_extent,
+    .flags = SHAPE_PATCH | SHAPE_HAS_HIERARCHY | SHAPE_HAS_UV | SHAPE_SHARED | SHAPE_SMOOTH, .parse = parse, .item = item,
+    .finish = finish, .compile = mesh_compile, .hits = mesh_hits, .inside = mesh_inside, .surface = mesh_surface,
+    .extent = mesh_extent,
 };

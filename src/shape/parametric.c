@@ -62,9 +62,11 @@ static bool item(Parser *p, void *params)
         int depth = parse_int(p);
         if (depth < 1 || depth > 20)
             parse_fail(p, "the depth of precompute must be 1 to 20");
-        do
+        static const int axes[] = { KW_X, KW_Y, KW_Z };
+        for (int i = 0; i < 3; i++) {
             parse_comma(p);
-        while (parse_accept(p, KW_X) || parse_accept(p, KW_Y) || parse_accept(p, KW_Z));
+            parse_accept(p, axes[i]);
+        }
     } else {
         return false;
     }

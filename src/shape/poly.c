@@ -29,7 +29,8 @@ static void coefficients(Parser *p, Params *params, int order)
     params->order = order;
     params->coefficient = arena_array(parse_arena(p), double, (size_t)n_terms(order));
     parse_expect(p, TOK_LESS);
-    for (int i = 0; i < n_terms(order); i++)
+    params->coefficient[0] = parse_float(p);
+    for (int i = 1; i < n_terms(order); i++)
         params->coefficient[i] = parse_next_float(p);
     parse_expect(p, TOK_GREATER);
 }

@@ -35,7 +35,9 @@ static void what_has_one_meaning_is_read_with_a_warning_and_strictly_refused(voi
         HEAD "#declare A = rgb 1 + rgb 1;", HEAD "#declare A = <1,2,3>.x.x;", HEAD "#declare A = min(3 1);",
         HEAD "cylinder { 0, x, 1 open open pigment { rgb 1 } }", HEAD "light_source { 0, 1 rgb 1 }",
         HEAD "#macro M(X) X #end #declare A = array[2] { M(1), 2 };", HEAD "#declare A = array[3] { #for (I, 0, 2) I, #end };",
-        HEAD "#declare A = array[1][2] { { 1, #local X = 2; X } };",
+        HEAD "#declare A = array[1][2] { { 1, #local X = 2; X } };", HEAD "cylinder { 0, x, 1 scale 2 open pigment { rgb 1 } }",
+        HEAD "isosurface { function { x } scale 2 max_gradient 3 }", HEAD "mesh { triangle { 0, x, y } scale 2 inside_vector y }",
+        HEAD "blob { sphere { 0, 1, 1 } sturm sphere { x, 1, 1 } }",
     };
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         Parsed *s = parsed(texts[i]);
@@ -46,6 +48,47 @@ static void what_has_one_meaning_is_read_with_a_warning_and_strictly_refused(voi
         assert_true(s->failed);
         parsed_free(s);
     }
+}
+
+static void commas_may_stand_behind_the_last_item_and_before_what_may_lack(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        HEAD "sphere { 0, 1 pigment { checker rgb 1, rgb 0, } }", HEAD "sphere { 0, 1 pigment { brick rgb 1, rgb 0, mortar 0.1 } }",
+        HEAD "sphere { 0, 1 texture { checker texture { }, texture { }, scale 2 } }",
+        HEAD "sphere { 0, 1 normal { checker normal { bumps }, normal { dents }, } }",
+        HEAD "sphere { 0, 1 pigment { slope { y, , 0.8 altitude y, 0, } } }", HEAD "#for (I, 0, 4 2) #end #for (I, 0, 4, ) #end",
+        HEAD "parametric { function { u }, function { v }, function { 0 } <0,0>, <1,2> precompute 5 x, , z }",
+    };
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        accepted(texts[i]);
+}
+
+/* What is said before the pattern waits for it; until then the pigment is black. */
+static void a_pigment_may_have_a_map_and_no_pattern_yet(void **state)
+{
+    (void)state;
+    Parsed *s = parsed(HEAD "#declare P = pigment { color_map { [0 rgb x] [1 rgb y] } turbulence 2 }\nsphere { 0, 1 pigment { P } }");
+    const Pigment *g = only_object(s)->texture->pigment;
+    assert_true(said(s, DIAG_WARNING, "Pigment type unspecified"));
+    assert_int_equal(g->kind, PIGMENT_PLAIN);
+    assert_true(g->colour.r == 0 && g->colour.g == 0);
+    parsed_free(s);
+    s = parsed(HEAD "#declare P = pigment { color_map { [0 rgb x] [1 rgb y] } turbulence 2 }\nsphere { 0, 1 pigment { P wood } }");
+    g = only_object(s)->texture->pigment;
+    assert_int_equal(g->kind, PIGMENT_PATTERN);
+    assert_int_equal(g->map.n, 2);
+    assert_true(g->map.entry[0].colour.r == 1 && g->map.entry[1].colour.g == 1);
+    assert_true(g->pattern->chain.has_turbulence);
+    parsed_free(s);
+}
+
+static void a_mesh_may_say_its_inside_vector_anywhere_among_its_triangles(void **state)
+{
+    (void)state;
+    Parsed *s = parsed(HEAD "#declare M = mesh { inside_vector y triangle { 0, x, y } }\n#if (inside(M, 0)) #end object { M }");
+    only_object(s);
+    parsed_free(s);
 }
 
 static void a_vector_may_lack_a_comma(void **state)
@@ -196,6 +239,9 @@ static void a_scene_may_say_neither_version_nor_gamma(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(commas_may_stand_behind_the_last_item_and_before_what_may_lack),
+        cmocka_unit_test(a_pigment_may_have_a_map_and_no_pattern_yet),
+        cmocka_unit_test(a_mesh_may_say_its_inside_vector_anywhere_among_its_triangles),
         cmocka_unit_test(what_has_one_meaning_is_read_with_a_warning_and_strictly_refused),
         cmocka_unit_test(a_vector_may_lack_a_comma),
         cmocka_unit_test(a_polygon_may_lack_commas_and_its_last_point),
