@@ -29,7 +29,8 @@ typedef struct ArenaMark {
 void arena_init(Arena *a);
 void arena_free(Arena *a);
 
-/* Zeroed, aligned to 64 bytes when `bytes` is a multiple of it (whole lines of the cache), to 16 otherwise. Never NULL. */
+/* Zeroed. Aligned to 64 bytes when `bytes` is a multiple of it (whole lines of the cache), otherwise to the power of two that divides
+ * `bytes`, 16 at most: what is no multiple of the alignment it needs, asks for more bytes. Never NULL. */
 void *arena_alloc(Arena *a, size_t bytes);
 
 /* A copy of `bytes` bytes at `from`. */

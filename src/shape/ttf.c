@@ -24,9 +24,10 @@ typedef struct Library { FUNCTIONS(LIBRARY_FIELD) } Library;
 
 /* ---- memory ---- */
 
+/* Fit for anything. */
 static void *take(FT_Memory memory, long n)
 {
-    return arena_alloc(memory->user, (size_t)n);
+    return arena_alloc(memory->user, ((size_t)n + 15) & ~(size_t)15);
 }
 
 static void leave(FT_Memory memory, void *block)
@@ -36,7 +37,7 @@ static void leave(FT_Memory memory, void *block)
 
 static void *resize(FT_Memory memory, long n, long to, void *block)
 {
-    void *new = arena_alloc(memory->user, (size_t)to);
+    void *new = take(memory, to);
     memcpy(new, block, (size_t)(n < to ? n : to));
     return new;
 }
