@@ -42,10 +42,10 @@ static Face face_of(const MeshParams *m, uint32_t i)
 
 static bool uv_of(const MeshParams *m, uint32_t face, Vec2 uv[3])
 {
-    if (m->face_uv == NULL || m->face_uv[face].v[0] == MESH_NONE)
+    if (m->more->face_uv == NULL || m->more->face_uv[face].v[0] == MESH_NONE)
         return false;
     for (int k = 0; k < 3; k++)
-        uv[k] = m->uv[m->face_uv[face].v[k]];
+        uv[k] = m->more->uv[m->more->face_uv[face].v[k]];
     return true;
 }
 
@@ -106,11 +106,11 @@ static Vec3 mixed(const Vec3 p[3], const double w[3])
 
 static Vec3 smooth_normal(const MeshParams *m, uint32_t face, Vec3 flat, const double w[3])
 {
-    if (m->face_normal == NULL || m->face_normal[face].v[0] == MESH_NONE)
+    if (m->more->face_normal == NULL || m->more->face_normal[face].v[0] == MESH_NONE)
         return flat;
     Vec3 n[3];
     for (int k = 0; k < 3; k++) {
-        Float3 v = m->normal[m->face_normal[face].v[k]];
+        Float3 v = m->more->normal[m->more->face_normal[face].v[k]];
         n[k] = vec3((double)v.x, (double)v.y, (double)v.z);
     }
     return normalized(mixed(n, w));

@@ -9,13 +9,17 @@
 #include "shape/shape.h"
 #include "shape/triangle.h"
 
+typedef struct Tree {
+    const AccelOps *ops;
+    const void *accel;                         /* item i is faces run[i] to run[i + 1] - 1 */
+    const uint32_t *run;
+} Tree;
+
 typedef struct Mesh {
     const MeshParams *m;
-    const AccelOps *ops;
-    const void *accel;                         /* item i is faces run[i] to run[i + 1] - 1; NULL: all are tested */
-    const uint32_t *run;
+    const Tree *tree;                          /* NULL: all faces are tested */
     const uint32_t *texture;                   /* of build_texture, by index in the mesh */
-    Vec3 inward;                               /* direction of inside tests; 0: no inside */
+    const Vec3 *inward;                        /* direction of inside tests; NULL: no inside */
 } Mesh;
 
 static Vec3 to_vec3(Float3 v)
@@ -46,20 +50,43 @@ Float3 mesh_normal(Vec3 n, bool *was_zero)
 
 bool mesh_item(Parser *p, void *params)
 {
-    MeshParams *m = params;
     if (!parse_accept(p, KW_INSIDE_VECTOR))
         return false;
     Vec3 v = parse_vec3(p);
-    m->inside_vector = normalized(scaled(v, 1 / build_unit(max_abs(v))));
+    mesh_more(p, params)->inside_vector = normalized(scaled(v, 1 / build_unit(max_abs(v))));
     return true;
+}
+
+static const MeshMore NO_MORE = { 0 };
+
+void mesh_begin(MeshParams *m)
+{
+    m->more = &NO_MORE;
+}
+
+MeshMore *mesh_more(Parser *p, MeshParams *m)
+{
+    if (m->more == &NO_MORE)
+        m->more = arena_new(parse_arena(p), MeshMore);
+    return (MeshMore *)(uintptr_t)m->more;     /* this mesh's own */
 }
 
 void mesh_ready(MeshParams *m)
 {
-    m->box = bounds_empty();
+    Float3 lo = { INFINITY, INFINITY, INFINITY }, hi = { -INFINITY, -INFINITY, -INFINITY };
     for (uint32_t i = 0; i < m->n_faces; i++)
-        for (int k = 0; k < 3; k++)
-            m->box = bounds_include(m->box, to_vec3(m->vertex[m->face[i].v[k]]));
+        for (int k = 0; k < 3; k++) {
+            Float3 v = m->vertex[m->face[i].v[k]];
+            lo = (Float3){ v.x < lo.x ? v.x : lo.x, v.y < lo.y ? v.y : lo.y, v.z < lo.z ? v.z : lo.z };
+            hi = (Float3){ v.x > hi.x ? v.x : hi.x, v.y > hi.y ? v.y : hi.y, v.z > hi.z ? v.z : hi.z };
+        }
+    m->lo = lo;
+    m->hi = hi;
+}
+
+static Bounds box_of(const MeshParams *m)
+{
+    return (Bounds){ to_vec3(m->lo), to_vec3(m->hi) };
 }
 
 /* ---- compiling ---- */
@@ -112,8 +139,11 @@ static void build_hierarchy(ShapeBuild *b, Mesh *mesh)
         for (uint32_t face = run[i]; face < run[i + 1]; face++)
             box[i] = bounds_union(box[i], face_box(mesh->m, face));
     }
-    mesh->run = arena_copy(b->arena, run, ((size_t)n + 1) * sizeof *run);
-    mesh->accel = b->accel->build(b->arena, box, n);
+    Tree *tree = build_data(b, sizeof *tree);
+    tree->ops = b->accel;
+    tree->run = arena_copy(b->arena, run, ((size_t)n + 1) * sizeof *run);
+    tree->accel = b->accel->build(b->arena, box, n);
+    mesh->tree = tree;
     arena_free(&own);
 }
 
@@ -166,21 +196,36 @@ static uint32_t listed_texture(ShapeBuild *b, const ListedTexture *t)
 /* Only what some face has: a list may be longer. 0 is no texture yet. */
 static const uint32_t *used_textures(ShapeBuild *b, const MeshParams *m)
 {
-    uint32_t *texture = build_data(b, m->n_textures * sizeof *texture);
+    const MeshMore *more = m->more;
+    uint32_t *texture = build_data(b, more->n_textures * sizeof *texture);
     uint32_t recent[RECENT_TEXTURES] = { 0 };  /* number in the list */
-    for (uint32_t i = 0; m->face_texture != NULL && i < m->n_faces; i++)
+    for (uint32_t i = 0; more->face_texture != NULL && i < m->n_faces; i++)
         for (int k = 0; k < 3; k++) {
-            uint32_t t = m->face_texture[i].v[k];
+            uint32_t t = more->face_texture[i].v[k];
             if (t == MESH_NONE || texture[t] != 0)
                 continue;
-            uint32_t *like = &recent[colour_hash(&m->texture[t].colour) % RECENT_TEXTURES];
-            if (texture[*like] == 0 || !same_texture(&m->texture[*like], &m->texture[t])) {
-                texture[t] = listed_texture(b, &m->texture[t]);
+            uint32_t *like = &recent[colour_hash(&more->texture[t].colour) % RECENT_TEXTURES];
+            if (texture[*like] == 0 || !same_texture(&more->texture[*like], &more->texture[t])) {
+                texture[t] = listed_texture(b, &more->texture[t]);
                 *like = t;
             } else
                 texture[t] = texture[*like];
         }
     return texture;
+}
+
+/* POV: the vector stays as written when the mesh is turned. It makes a difference only when there are holes. */
+static const Vec3 *inward_of(ShapeBuild *b, const MeshParams *m)
+{
+    if (max_abs(m->more->inside_vector) == 0)
+        return NULL;
+    if (is_closed(m))
+        return &m->more->inside_vector;
+    Affine place = build_own_place(b);
+    Vec3 *local = build_data(b, sizeof *local);
+    *local = affine_vector_back(&place, m->more->inside_vector);
+    *local = normalized(scaled(*local, 1 / build_unit(max_abs(*local))));
+    return max_abs(*local) == 0 ? NULL : local;
 }
 
 void mesh_compile(ShapeBuild *b, const void *params)
@@ -189,28 +234,23 @@ void mesh_compile(ShapeBuild *b, const void *params)
     if (m->n_faces == 0)
         return;
     Mesh *out = build_data(b, sizeof *out);
-    *out = (Mesh){ .m = m, .ops = b->accel, .inward = m->inside_vector };
+    *out = (Mesh){ .m = m, .inward = inward_of(b, m) };
     if (m->n_faces > RUN_MAX)
         build_hierarchy(b, out);
-    if (m->n_textures > 0)
+    if (m->more->n_textures > 0)
         out->texture = used_textures(b, m);
-    /* POV: the vector stays as written when the mesh is turned. It makes a difference only when there are holes. */
-    if (max_abs(out->inward) > 0 && !is_closed(m)) {
-        Affine place = build_own_place(b);
-        Vec3 local = affine_vector_back(&place, out->inward);
-        out->inward = normalized(scaled(local, 1 / build_unit(max_abs(local))));
-    }
-    b->no_inside = max_abs(out->inward) == 0;
+    b->no_inside = out->inward == NULL;
     double unit = m->unit > 0 ? m->unit : 1;
     Affine place = build_place(b, unit);
-    build_prim(b, out, &place, shape_padded(m->box));
+    build_prim(b, out, &place, shape_padded(box_of(m)));
 }
 
 Bounds mesh_extent(const void *params, const Affine *place)
 {
     const MeshParams *m = params;
     double unit = m->unit > 0 ? m->unit : 1;
-    return bounds_transformed((Bounds){ scaled(m->box.lo, unit), scaled(m->box.hi, unit) }, place);
+    Bounds box = box_of(m);
+    return bounds_transformed((Bounds){ scaled(box.lo, unit), scaled(box.hi, unit) }, place);
 }
 
 /* ---- tracing ---- */
@@ -240,7 +280,8 @@ static bool test_faces(Walk *w, uint32_t first, uint32_t end)
 static bool visit(void *user, uint32_t item, double *t_max)
 {
     Walk *w = user;
-    if (test_faces(w, w->mesh->run[item], w->mesh->run[item + 1]))
+    const uint32_t *run = w->mesh->tree->run + item;
+    if (test_faces(w, run[0], run[1]))
         *t_max = hit_limit(w->sink);
     return false;
 }
@@ -250,8 +291,8 @@ void mesh_hits(const void *shape, const Ray *ray, HitSink *sink)
     const Mesh *mesh = shape;
     Walk w = { mesh, tri_ray(ray), sink };
     double t_max = hit_limit(sink);
-    if (mesh->accel != NULL)
-        mesh->ops->walk(mesh->accel, ray, &t_max, visit, &w);
+    if (mesh->tree != NULL)
+        mesh->tree->ops->walk(mesh->tree->accel, ray, &t_max, visit, &w);
     else
         test_faces(&w, 0, mesh->m->n_faces);
 }
@@ -298,7 +339,8 @@ static bool count(void *user, uint32_t item, double *t_max)
 {
     (void)t_max;
     Parity *c = user;
-    for (uint32_t i = c->mesh->run[item]; i < c->mesh->run[item + 1]; i++)
+    const uint32_t *run = c->mesh->tree->run + item;
+    for (uint32_t i = run[0]; i < run[1]; i++)
         count_face(c, i);
     return false;
 }
@@ -306,13 +348,13 @@ static bool count(void *user, uint32_t item, double *t_max)
 bool mesh_inside(const void *shape, Vec3 p)
 {
     const Mesh *mesh = shape;
-    if (max_abs(mesh->inward) == 0)
+    if (mesh->inward == NULL)
         return false;
-    Ray ray = { p, mesh->inward, 0, INFINITY };
+    Ray ray = { p, *mesh->inward, 0, INFINITY };
     Parity c = { mesh, tri_ray(&ray), false };
     double t_max = INFINITY;
-    if (mesh->accel != NULL)
-        mesh->ops->walk(mesh->accel, &ray, &t_max, count, &c);
+    if (mesh->tree != NULL)
+        mesh->tree->ops->walk(mesh->tree->accel, &ray, &t_max, count, &c);
     else
         for (uint32_t i = 0; i < mesh->m->n_faces; i++)
             count_face(&c, i);
@@ -344,6 +386,7 @@ void mesh_surface(const void *shape, const Hit *hit, Surface *out)
 {
     const Mesh *mesh = shape;
     const MeshParams *m = mesh->m;
+    const MeshMore *more = m->more;
     const Index3 *face = &m->face[hit->part];
     double u = hit->u, v = hit->v, w = 1 - u - v;
     Vec3 p[3];
@@ -351,11 +394,11 @@ void mesh_surface(const void *shape, const Hit *hit, Surface *out)
         p[k] = to_vec3(m->vertex[face->v[k]]);
     out->p = add(p[0], add(scaled(sub(p[1], p[0]), u), scaled(sub(p[2], p[0]), v)));
     out->normal = normalized(cross(sub(p[0], p[1]), sub(p[2], p[1])));
-    if (m->face_normal != NULL && m->face_normal[hit->part].v[0] != MESH_NONE) {
-        const Index3 *index = &m->face_normal[hit->part];
+    if (more->face_normal != NULL && more->face_normal[hit->part].v[0] != MESH_NONE) {
+        const Index3 *index = &more->face_normal[hit->part];
         Vec3 n[3];
         for (int k = 0; k < 3; k++)
-            n[k] = to_vec3(m->normal[index->v[k]]);
+            n[k] = to_vec3(more->normal[index->v[k]]);
         /* POV: normals that are all the same leave the face flat. */
         if (length2(sub(n[0], n[1])) > 1e-10 || length2(sub(n[0], n[2])) > 1e-10) {
             out->geometric = out->normal;
@@ -364,12 +407,12 @@ void mesh_surface(const void *shape, const Hit *hit, Surface *out)
     }
     if (out->want_uv) {
         out->uv = (Vec2){ 0, 0 };
-        if (m->face_uv != NULL && m->face_uv[hit->part].v[0] != MESH_NONE) {
-            const uint32_t *index = m->face_uv[hit->part].v;
-            Vec2 a = m->uv[index[0]], b = m->uv[index[1]], c = m->uv[index[2]];
+        if (more->face_uv != NULL && more->face_uv[hit->part].v[0] != MESH_NONE) {
+            const uint32_t *index = more->face_uv[hit->part].v;
+            Vec2 a = more->uv[index[0]], b = more->uv[index[1]], c = more->uv[index[2]];
             out->uv = (Vec2){ w * a.u + u * b.u + v * c.u, w * a.v + u * b.v + v * c.v };
         }
     }
-    if (m->face_texture != NULL)
-        set_textures(mesh, &m->face_texture[hit->part], u, v, out);
+    if (more->face_texture != NULL)
+        set_textures(mesh, &more->face_texture[hit->part], u, v, out);
 }

@@ -14,13 +14,17 @@ typedef struct Pool {
 
 typedef ARRAY(Index3) Faces;
 
-struct MeshSoup {
+typedef struct Soup {
     Pool vertex, normal, uv;
     Faces face, face_normal, face_uv, face_texture;        /* the last three end where their last use was */
     ARRAY(ListedTexture) texture;
     bool zero_normal;
-};
-typedef struct MeshSoup Soup;
+} Soup;
+
+typedef struct Params {
+    MeshParams mesh;                           /* first: all that is asked of it later */
+    Soup *soup;                                /* while it is parsed */
+} Params;
 
 static uint32_t hash(const void *item, uint32_t size)
 {
@@ -124,10 +128,10 @@ static void drop_last(Faces *list, uint32_t face)
         list->n = face;
 }
 
-static void triangle(Parser *p, MeshParams *m, bool smooth)
+static void triangle(Parser *p, Params *to, bool smooth)
 {
     Arena *a = parse_arena(p);
-    Soup *s = m->soup;
+    Soup *s = to->soup;
     Vec3 at[3], n[3] = { { 0, 0, 0 } };
     uint32_t face = s->face.n;
     parse_open(p);
@@ -148,7 +152,7 @@ static void triangle(Parser *p, MeshParams *m, bool smooth)
     }
     Index3 f, fn;
     for (int k = 0; k < 3; k++) {
-        Float3 v = mesh_vertex(p, m, at[k]);
+        Float3 v = mesh_vertex(p, &to->mesh, at[k]);
         f.v[k] = pool_index(a, &s->vertex, &v, sizeof v);
         if (smooth) {
             bool zero;
@@ -175,8 +179,9 @@ static Index3 *whole(Arena *a, Faces *list, uint32_t n)
 
 static void parse(Parser *p, void *params)
 {
-    MeshParams *m = params;
-    m->soup = arena_new(parse_arena(p), Soup);
+    Params *out = params;
+    mesh_begin(&out->mesh);
+    out->soup = arena_new(parse_arena(p), Soup);
 }
 
 static bool item(Parser *p, void *params)
@@ -193,27 +198,28 @@ static void finish(Parser *p, void *params)
 {
     MeshParams *m = params;
     Arena *a = parse_arena(p);
-    Soup *s = m->soup;
+    Soup *s = ((Params *)params)->soup;
     m->n_faces = s->face.n;
     if (m->n_faces == 0)
         parse_fail(p, "No triangles in triangle mesh.");
     m->vertex = (Float3 *)(void *)s->vertex.data;
-    m->normal = (Float3 *)(void *)s->normal.data;
-    m->uv = (Vec2 *)(void *)s->uv.data;
-    m->texture = s->texture.data;
     m->n_vertices = s->vertex.n;
-    m->n_normals = s->normal.n;
-    m->n_uvs = s->uv.n;
-    m->n_textures = s->texture.n;
     m->face = s->face.data;
-    m->face_normal = whole(a, &s->face_normal, m->n_faces);
-    m->face_uv = whole(a, &s->face_uv, m->n_faces);
-    m->face_texture = whole(a, &s->face_texture, m->n_faces);
+    MeshMore *more = mesh_more(p, m);
+    more->normal = (Float3 *)(void *)s->normal.data;
+    more->uv = (Vec2 *)(void *)s->uv.data;
+    more->texture = s->texture.data;
+    more->n_normals = s->normal.n;
+    more->n_uvs = s->uv.n;
+    more->n_textures = s->texture.n;
+    more->face_normal = whole(a, &s->face_normal, m->n_faces);
+    more->face_uv = whole(a, &s->face_uv, m->n_faces);
+    more->face_texture = whole(a, &s->face_texture, m->n_faces);
     mesh_ready(m);
 }
 
 const ShapeOps shape_mesh = {
-    .keyword = "mesh", .params_size = sizeof(MeshParams),
+    .keyword = "mesh", .params_size = sizeof(Params),
     .flags = SHAPE_PATCH | SHAPE_HAS_HIERARCHY | SHAPE_HAS_UV | SHAPE_SHARED | SHAPE_SMOOTH, .parse = parse, .item = item,
     .finish = finish, .compile = mesh_compile, .hits = mesh_hits, .inside = mesh_inside, .surface = mesh_surface,
     .extent = mesh_extent,

@@ -49,7 +49,7 @@ static void vertex_vectors(Parser *p, MeshParams *m)
     list_end(p);
 }
 
-static void normal_vectors(Parser *p, MeshParams *m)
+static void normal_vectors(Parser *p, MeshMore *m)
 {
     uint32_t n = list_length(p, "normal_vectors"), capacity = 0;
     if (m->normal != NULL)
@@ -67,7 +67,7 @@ static void normal_vectors(Parser *p, MeshParams *m)
     list_end(p);
 }
 
-static void uv_vectors(Parser *p, MeshParams *m)
+static void uv_vectors(Parser *p, MeshMore *m)
 {
     uint32_t n = list_length(p, "uv_vectors"), capacity = 0;
     if (m->uv != NULL)
@@ -81,7 +81,7 @@ static void uv_vectors(Parser *p, MeshParams *m)
     list_end(p);
 }
 
-static void texture_list(Parser *p, MeshParams *m)
+static void texture_list(Parser *p, MeshMore *m)
 {
     uint32_t n = list_length(p, "texture_list"), capacity = 0;
     ListedTexture *list = NULL;
@@ -109,14 +109,14 @@ static Index3 indices(Parser *p, uint32_t n, const char *what)
 }
 
 /* [, t [, t2 [, t3]]] behind a face. */
-static Index3 face_textures(Parser *p, const MeshParams *m)
+static Index3 face_textures(Parser *p, uint32_t n)
 {
     Index3 t;
-    t.v[0] = checked(p, parse_float(p), m->n_textures, "texture");
+    t.v[0] = checked(p, parse_float(p), n, "texture");
     parse_comma(p);
     t.v[1] = t.v[2] = t.v[0];
     for (int k = 1; k < 3 && parse_peek(p) != TOK_LESS && parse_at_number(p); k++) {
-        t.v[k] = checked(p, parse_float(p), m->n_textures, "texture");
+        t.v[k] = checked(p, parse_float(p), n, "texture");
         parse_comma(p);
     }
     return t;
@@ -124,28 +124,29 @@ static Index3 face_textures(Parser *p, const MeshParams *m)
 
 static void face_indices(Parser *p, MeshParams *m)
 {
-    uint32_t n = list_length(p, "face_indices"), capacity = 0, texture_capacity = 0;
+    uint32_t n = list_length(p, "face_indices"), n_textures = m->more->n_textures, capacity = 0, texture_capacity = 0;
     if (n == 0)
         parse_fail(p, "No faces in triangle mesh.");
     for (uint32_t i = 0; i < n; i++) {
         m->face = room(p, m->face, &capacity, i, n, sizeof *m->face);
         m->face[i] = indices(p, m->n_vertices, "face");
-        if (m->n_textures == 0)
+        if (n_textures == 0)
             continue;
         parse_comma(p);
-        m->face_texture = room(p, m->face_texture, &texture_capacity, i, n, sizeof *m->face_texture);
-        m->face_texture[i] = parse_peek(p) != TOK_LESS && parse_at_number(p)
-                                 ? face_textures(p, m)
-                                 : (Index3){ { MESH_NONE, MESH_NONE, MESH_NONE } };
+        MeshMore *more = mesh_more(p, m);
+        more->face_texture = room(p, more->face_texture, &texture_capacity, i, n, sizeof *more->face_texture);
+        more->face_texture[i] = parse_peek(p) != TOK_LESS && parse_at_number(p)
+                                    ? face_textures(p, n_textures)
+                                    : (Index3){ { MESH_NONE, MESH_NONE, MESH_NONE } };
     }
     m->n_faces = n;
     list_end(p);
 }
 
-static void uv_indices(Parser *p, MeshParams *m)
+static void uv_indices(Parser *p, MeshMore *m, uint32_t n_faces)
 {
     uint32_t n = list_length(p, "uv_indices"), capacity = 0;
-    if (n != m->n_faces)
+    if (n != n_faces)
         parse_fail(p, "Number of uv indices must equal number of faces.");
     m->face_uv = NULL;
     for (uint32_t i = 0; i < n; i++) {
@@ -155,59 +156,83 @@ static void uv_indices(Parser *p, MeshParams *m)
     list_end(p);
 }
 
-static void normal_indices(Parser *p, MeshParams *m)
+static void normal_indices(Parser *p, MeshMore *m, uint32_t n_faces)
 {
-    uint32_t n = list_length(p, "normal_indices"), capacity = 0, total = m->n_faces;
-    if (n > total)
+    uint32_t n = list_length(p, "normal_indices"), capacity = 0;
+    if (n > n_faces)
         parse_fail(p, "Number of normal indices cannot be more than the number of faces.");
     m->face_normal = NULL;
-    for (uint32_t i = 0; i < total; i++) {     /* faces without are flat */
-        m->face_normal = room(p, m->face_normal, &capacity, i, total, sizeof *m->face_normal);
+    for (uint32_t i = 0; i < n_faces; i++) {   /* faces without are flat */
+        m->face_normal = room(p, m->face_normal, &capacity, i, n_faces, sizeof *m->face_normal);
         m->face_normal[i] = i < n ? indices(p, m->n_normals, "normal") : (Index3){ { MESH_NONE, MESH_NONE, MESH_NONE } };
     }
     list_end(p);
 }
 
-static void parse(Parser *p, void *params)
+/* False at anything else: nothing is taken. */
+static bool list_before_faces(Parser *p, MeshParams *m)
 {
-    MeshParams *m = params;
-    for (;;) {
-        if (parse_accept(p, KW_VERTEX_VECTORS))
-            vertex_vectors(p, m);
-        else if (parse_accept(p, KW_NORMAL_VECTORS))
-            normal_vectors(p, m);
-        else if (parse_accept(p, KW_UV_VECTORS))
-            uv_vectors(p, m);
-        else
-            break;
-    }
-    if (m->n_vertices == 0)
-        parse_fail(p, "No vertices in triangle mesh.");
-    if (parse_accept(p, KW_TEXTURE_LIST))
-        texture_list(p, m);
-    parse_expect(p, KW_FACE_INDICES);
-    face_indices(p, m);
-    for (;;) {
-        if (parse_accept(p, KW_UV_INDICES))
-            uv_indices(p, m);
-        else if (parse_accept(p, KW_NORMAL_INDICES))
-            normal_indices(p, m);
-        else
-            break;
-    }
-    if (m->n_uvs > 0 && m->face_uv == NULL) {
-        if (m->n_uvs == m->n_vertices)
-            m->face_uv = m->face;
-        else if (m->n_uvs == 1)
-            m->face_uv = arena_array(parse_arena(p), Index3, m->n_faces);
+    int keyword = parse_peek(p);
+    if (keyword != KW_VERTEX_VECTORS && keyword != KW_NORMAL_VECTORS && keyword != KW_UV_VECTORS)
+        return false;
+    parse_skip(p);
+    if (keyword == KW_VERTEX_VECTORS)
+        vertex_vectors(p, m);
+    else if (keyword == KW_NORMAL_VECTORS)
+        normal_vectors(p, mesh_more(p, m));
+    else
+        uv_vectors(p, mesh_more(p, m));
+    return true;
+}
+
+static bool list_behind_faces(Parser *p, MeshParams *m)
+{
+    int keyword = parse_peek(p);
+    if (keyword != KW_UV_INDICES && keyword != KW_NORMAL_INDICES)
+        return false;
+    parse_skip(p);
+    if (keyword == KW_UV_INDICES)
+        uv_indices(p, mesh_more(p, m), m->n_faces);
+    else
+        normal_indices(p, mesh_more(p, m), m->n_faces);
+    return true;
+}
+
+/* Indices that were left out. */
+static void share_indices(Parser *p, MeshParams *m)
+{
+    MeshMore *more = mesh_more(p, m);
+    if (more->n_uvs > 0 && more->face_uv == NULL) {
+        if (more->n_uvs == m->n_vertices)
+            more->face_uv = m->face;
+        else if (more->n_uvs == 1)
+            more->face_uv = arena_array(parse_arena(p), Index3, m->n_faces);
         else
             parse_fail(p, "Missing uv_indices section in mesh2.");
     }
-    if (m->n_normals > 0 && m->face_normal == NULL) {
-        if (m->n_normals != m->n_vertices)
+    if (more->n_normals > 0 && more->face_normal == NULL) {
+        if (more->n_normals != m->n_vertices)
             parse_fail(p, "Missing normal_indices section in mesh2.");
-        m->face_normal = m->face;
+        more->face_normal = m->face;
     }
+}
+
+static void parse(Parser *p, void *params)
+{
+    MeshParams *m = params;
+    mesh_begin(m);
+    while (list_before_faces(p, m))
+        ;
+    if (m->n_vertices == 0)
+        parse_fail(p, "No vertices in triangle mesh.");
+    if (parse_accept(p, KW_TEXTURE_LIST))
+        texture_list(p, mesh_more(p, m));
+    parse_expect(p, KW_FACE_INDICES);
+    face_indices(p, m);
+    while (list_behind_faces(p, m))
+        ;
+    if (m->more->n_uvs > 0 || m->more->n_normals > 0)
+        share_indices(p, m);
     mesh_ready(m);
 }
 
