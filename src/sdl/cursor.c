@@ -141,6 +141,14 @@ static void resolve(Parser *p)
 
 void cursor_fetch(Parser *p)
 {
+    Reader *top = cursor_top(p);
+    if (!p->have && top->is_file) {            /* most tokens are what they are */
+        lex_next(p, &top->lexer, &p->token);
+        p->have = p->token.kind != TOK_END;
+        p->value = NULL;
+        if (p->have && p->token.kind != TOK_HASH && p->token.kind != TOK_NAME)
+            return;
+    }
     for (;;) {
         Reader *r = cursor_top(p);
         if (!p->have && !r->is_file && !p->suspended && r->at < r->n && r->tokens[r->at].kind == TOK_HASH) {

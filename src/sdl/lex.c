@@ -178,7 +178,7 @@ static void number(Parser *p, Lexer *l, Token *out)
 {
     out->kind = TOK_NUMBER;
     const char *start = l->at;
-    number_scan(&l->at, l->end, &out->number);
+    l->at = number_scan(start, l->end, &out->number);
     if (*l->at == '.' && memchr(start, '.', (size_t)(l->at - start)))
         fail(p->diag, lex_loc(l), "Unexpected additional '.' in floating-point number");
 }

@@ -1,4 +1,4 @@
-/* lex.h - classes of characters and the blanks between tokens, for those who read them: lex.c and literal.c.
+/* lex.h - classes of characters and the blanks between tokens, for those who look at them.
  *
  * Behind every text stands a zero (host.h), so that a character may be looked at without asking whether there is one. */
 #ifndef SDL_LEX_H
@@ -29,6 +29,15 @@ static inline const char *lex_blank(Lexer *l, const char *s)
 {
     s += *s == ' ';                            /* mostly there is none or one */
     return (unsigned char)*s > ' ' ? s : lex_blanks(l, s);
+}
+
+/* This mark; blanks before it go in any case. */
+static inline bool lex_mark(Lexer *l, char c)
+{
+    const char *s = lex_blank(l, l->at);
+    bool taken = *s == c;
+    l->at = s + taken;
+    return taken;
 }
 
 #endif

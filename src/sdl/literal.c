@@ -22,14 +22,14 @@ static inline bool keep(Lexer *lexer, Lexer *l, const char *s)
 /* A number with a sign or none, and the blanks around it. */
 static inline const char *number(Lexer *l, const char *s, double *out)
 {
+    static const double sign[] = { 1, -1 };    /* signs are hard to foresee: no branch */
     s = lex_blank(l, s);
     bool negative = *s == '-';
     s += negative;
     if (!is_digit(*s) && !(*s == '.' && is_digit(s[1])))
         return NULL;
-    double v = 0;
-    number_scan(&s, l->end, &v);
-    *out = negative ? -v : v;
+    s = number_scan(s, l->end, out);
+    *out *= sign[negative];
     return lex_blank(l, s);
 }
 
@@ -57,14 +57,6 @@ static inline const char *mark(Lexer *l, const char *s, char c)
 {
     s = lex_blank(l, s);
     return *s == c ? s + 1 : NULL;
-}
-
-bool literal_mark(Lexer *l, char c)
-{
-    const char *s = lex_blank(l, l->at);
-    bool taken = *s == c;
-    l->at = s + taken;
-    return taken;
 }
 
 static inline const char *comma(Lexer *l, const char *s)

@@ -10,8 +10,6 @@ typedef enum LiteralBefore {                   /* a comma may come first; `<` ha
     LITERAL_NOTHING, LITERAL_COMMA, LITERAL_INSIDE
 } LiteralBefore;
 
-bool literal_mark(Lexer *l, char c);           /* this character */
-
 /* `<a, b, c>`, or one number, with nothing behind it that could go on with the expression. */
 bool literal_vector(Lexer *l, LiteralBefore before, double out[3]);
 bool literal_number(Lexer *l, LiteralBefore before, double *out);

@@ -166,9 +166,9 @@ static const char *exponent_digits(const char *s, const char *end, int *out)
     return s;
 }
 
-bool number_scan_any(const char **at, const char *end, double *out)
+const char *number_scan_any(const char *s, const char *end, double *out)
 {
-    const char *s = *at, *first = s;
+    const char *first = s;
     uint64_t w = 0;
     while (s < end && is_digit(*s))
         w = w * 10 + (uint64_t)(*s++ - '0');   /* wraps beyond 19 digits: then not used */
@@ -184,25 +184,24 @@ bool number_scan_any(const char **at, const char *end, double *out)
             exponent = 0;
     }
     if (n_digits == 0)
-        return false;
+        return NULL;
     if (s < end && (*s == 'e' || *s == 'E'))
         s = exponent_digits(s + 1, end, &written);
-    *at = s;
     int q = exponent + written;
     if (n_digits <= MAX_DIGITS) {
         if (w <= (uint64_t)1 << 53 && q >= -22 && q <= 22) {
             *out = q < 0 ? (double)w / ten[-q] : (double)w * ten[q];
-            return true;
+            return s;
         }
         if (w == 0) {
             *out = 0;
-            return true;
+            return s;
         }
         if (q >= FIVE_MIN && q <= FIVE_MAX && lemire(w, q, out))
-            return true;
+            return s;
     }
     *out = slow(first, s, written);
-    return true;
+    return s;
 }
 
 static char *put_digits(char *out, uint64_t v, int n)

@@ -13,7 +13,7 @@
 
 enum { NUMBER_SHORT = 17 };                    /* characters that are looked at: 7 digits, the point, 8 digits, what follows */
 
-bool number_scan_any(const char **at, const char *end, double *out);
+const char *number_scan_any(const char *s, const char *end, double *out);
 
 static inline bool is_digit(char c)
 {
@@ -37,16 +37,16 @@ static inline uint64_t digits_of_8(const char *s, unsigned *n)
     return ((c & 0xff000000ff) * 0xf424000000064 + (c >> 16 & 0xff000000ff) * 0x271000000001) >> 32;
 }
 
-/* A decimal literal at `*at`, moved behind it; false if there is none. Correctly rounded. */
-static inline bool number_scan(const char **at, const char *end, double *out)
+/* A decimal literal at `s`, correctly rounded: what is behind it; NULL if there is none. */
+static inline const char *number_scan(const char *s, const char *end, double *out)
 {
     static const double ten[] = { 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8 };
     static const uint32_t power[] = { 1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000 };
-    const char *s = *at, *last = s + 7;
+    const char *first = s, *last = s + 7;
     uint64_t w = 0;
     unsigned n = 0;
     if (end - s < NUMBER_SHORT || !is_digit(*s))
-        return number_scan_any(at, end, out);
+        return number_scan_any(first, end, out);
     do
         w = w * 10 + (uint64_t)(*s++ - '0');
     while (is_digit(*s) && s < last);
@@ -56,10 +56,9 @@ static inline bool number_scan(const char **at, const char *end, double *out)
         s += n;
     }
     if (is_digit(*s) || (*s | 0x20) == 'e')
-        return number_scan_any(at, end, out);
-    *at = s;
+        return number_scan_any(first, end, out);
     *out = n > 0 ? (double)(int64_t)w / ten[n] : (double)(int64_t)w;
-    return true;
+    return s;
 }
 
 /* What printf makes of "%.*f"; the number of characters, or 0 for what only printf can do: large numbers and many digits. */

@@ -31,6 +31,7 @@ bool parse_accept(Parser *p, int kind);        /* takes the next token if it is 
 void parse_expect(Parser *p, int kind);        /* ... or fails */
 void parse_open(Parser *p);                    /* { */
 void parse_close(Parser *p);                   /* } */
+bool parse_at_close(Parser *p);                /* ... without taking it */
 void parse_comma(Parser *p);                   /* optional */
 bool parse_at_number(Parser *p);               /* could a numeric expression start here? (not after a comma) */
 

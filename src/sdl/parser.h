@@ -10,6 +10,7 @@
 #include "base/array.h"
 #include "base/file.h"
 #include "sdl/host.h"
+#include "sdl/lex.h"
 #include "sdl/literal.h"
 #include "sdl/value.h"
 
@@ -188,11 +189,22 @@ static inline bool cursor_take_mark(Parser *p, int kind, char c)
     if (p->have)
         return false;
     if (r->is_file)
-        return literal_mark(&r->lexer, c);
+        return lex_mark(&r->lexer, c);
     if (r->at == r->n || r->tokens[r->at].kind != kind)
         return false;
     r->at++;
     return true;
+}
+
+/* Can it be seen that neither a word comes next nor a directive or comment? Then there is nothing to run or to look up. */
+static inline bool cursor_sees_no_word(Parser *p)
+{
+    Reader *r = cursor_top(p);
+    if (p->have || !r->is_file)
+        return false;
+    const char *s = r->lexer.at = lex_blank(&r->lexer, r->lexer.at);
+    unsigned char class = class_at(s);
+    return class == C_MARK || class == C_LESS || class == C_DIGIT;
 }
 
 /* flow.c */

@@ -185,7 +185,15 @@ void block_close(Parser *p, const char *word)
 
 void parse_comma(Parser *p)
 {
-    parse_accept(p, TOK_COMMA);
+    if (!cursor_take_mark(p, TOK_COMMA, ',') && !cursor_sees_no_word(p))
+        parse_accept(p, TOK_COMMA);
+}
+
+bool parse_at_close(Parser *p)
+{
+    if (cursor_sees_no_word(p))
+        return *cursor_top(p)->lexer.at == '}';
+    return cursor_look(p) == TOK_CLOSE;
 }
 
 bool parse_at_number(Parser *p)
@@ -318,6 +326,8 @@ Str parse_file_name(Parser *p)
 
 BlockKind parse_peek_block(Parser *p)
 {
+    if (cursor_sees_no_word(p))
+        return BLOCK_NONE;
     cursor_look(p);
     return p->token.kind == TOK_NAME && p->value && p->value->kind == VALUE_BLOCK ? (BlockKind)p->value->block : BLOCK_NONE;
 }

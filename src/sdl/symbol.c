@@ -196,7 +196,7 @@ static double declared_number(Str text)
     double v = 0;
     bool negative = at < end && *at == '-';
     at += at < end && (*at == '-' || *at == '+');
-    if (!number_scan(&at, end, &v))
+    if (number_scan(at, end, &v) == NULL)
         v = 0;
     /* POV: values from the command line go through single precision, and then through six digits of text. */
     char digits[32];

@@ -31,7 +31,8 @@ static void same_as_strtod(const char *text)
         snprintf(longer, sizeof longer, "%s%s", text, behind ? ", 1, 2, 3, 4, 5, 6, 7" : "");
         const char *at = longer;
         double got = -1;
-        assert_true(number_scan(&at, longer + strlen(longer), &got));
+        at = number_scan(at, longer + strlen(longer), &got);
+        assert_non_null(at);
         assert_int_equal(at - longer, n);
         if (memcmp(&got, &want, sizeof got) != 0)
             print_message("%s: %a, strtod says %a\n", text, got, want);
@@ -139,7 +140,8 @@ static void the_exponent_may_lack_its_digits(void **state)
     for (int i = 0; i < 4; i++) {
         const char *at = texts[i];
         double v = 0;
-        assert_true(number_scan(&at, at + strlen(at), &v));
+        at = number_scan(at, at + strlen(at), &v);
+        assert_non_null(at);
         assert_true(v == 1 && *at == 0);
     }
 }
