@@ -232,10 +232,11 @@ static Inherited inherit(Compile *c, const Object *o, const Inherited *from, Aff
         return in;
     if (o->texture != NULL)
         in.texture = texture_placed(c, o->texture, o->texture_place, from->place);
-    if (o->interior_texture != NULL)
-        in.interior_texture = texture_placed(c, o->interior_texture, o->interior_texture_place, from->place);
-    if (o->interior != NULL)
-        in.interior = interior_placed(c, o->interior, o->interior_place, from->place, in.hollow);
+    const ObjectMore *more = object_more(o);
+    if (more->interior_texture != NULL)
+        in.interior_texture = texture_placed(c, more->interior_texture, more->interior_texture_place, from->place);
+    if (more->interior != NULL)
+        in.interior = interior_placed(c, more->interior, more->interior_place, from->place, in.hollow);
     return in;
 }
 
@@ -397,7 +398,7 @@ static uint32_t clipped(Compile *c, const Object *o, const Inherited *from, uint
 {
     Items items = { 0 };
     array_push(c->arena, &items, body);
-    helpers(c, o->clipped_by, o->n_clipped_by, from, &items);
+    helpers(c, object_more(o)->clipped_by, object_more(o)->n_clipped_by, from, &items);
     return over_body(c, CSG_CLIP, &items, first_prim);
 }
 
@@ -405,11 +406,12 @@ static uint32_t clipped(Compile *c, const Object *o, const Inherited *from, uint
  * children of CSG and CSG itself keep the objects; rays that miss them miss the body (08-shapes, section 5.1). */
 static uint32_t bounded(Compile *c, const Object *o, const Inherited *from, uint32_t body, uint32_t first_prim)
 {
+    const ObjectMore *more = object_more(o);
     bool by_clip = (o->flags & OBJECT_BOUNDED_BY_CLIP) != 0;
     bool only_box = !from->in_csg && o->kind == OBJECT_SHAPE && !(o->ops->flags & SHAPE_BOUND_STAYS);
     Bounds hull = item_hull(c, body), box = bounds_everything();
     Items bounds = { 0 }, items = { 0 };
-    helpers(c, by_clip ? o->clipped_by : o->bounded_by, by_clip ? o->n_clipped_by : o->n_bounded_by, from, &bounds);
+    helpers(c, by_clip ? more->clipped_by : more->bounded_by, by_clip ? more->n_clipped_by : more->n_bounded_by, from, &bounds);
     array_push(c->arena, &items, body);
     for (uint32_t i = 0; i < bounds.n; i++) {
         Reach r = item_reach(c, bounds.data[i]);
@@ -445,9 +447,10 @@ uint32_t flatten_item(Compile *c, const Object *o, const Inherited *from)
     item = o->kind == OBJECT_SHAPE ? shape_item(c, o, from) : set_operation(c, o, from);
     if (item == NO_ITEM)
         return item;
-    if (o->n_clipped_by > 0 && !(o->kind == OBJECT_SHAPE && (o->ops->flags & SHAPE_IGNORES_CLIP)))
+    const ObjectMore *more = object_more(o);
+    if (more->n_clipped_by > 0 && !(o->kind == OBJECT_SHAPE && (o->ops->flags & SHAPE_IGNORES_CLIP)))
         item = clipped(c, o, from, item, first_prim);
-    if (o->n_bounded_by > 0 || (o->flags & OBJECT_BOUNDED_BY_CLIP))
+    if (more->n_bounded_by > 0 || (o->flags & OBJECT_BOUNDED_BY_CLIP))
         item = bounded(c, o, from, item, first_prim);
     return item;
 }
@@ -489,11 +492,17 @@ static void body_add(Compile *c, uint32_t item)
         array_push(c->arena, &c->body, item);
 }
 
+static bool is_cut(const Object *o)
+{
+    const ObjectMore *more = object_more(o);
+    return more->n_clipped_by > 0 || more->n_bounded_by > 0 || (o->flags & OBJECT_BOUNDED_BY_CLIP);
+}
+
 static bool dissolves(const Object *o, const Inherited *from)
 {
     return o->kind == OBJECT_LIGHT_GROUP ||
-           (o->kind == OBJECT_UNION && o->n_clipped_by == 0 && o->n_bounded_by == 0 &&
-            !(o->flags & (OBJECT_NO_SPLIT_UNION | OBJECT_INVERSE | OBJECT_BOUNDED_BY_CLIP)) && from->inversions == 0);
+           (o->kind == OBJECT_UNION && !is_cut(o) &&
+            !(o->flags & (OBJECT_NO_SPLIT_UNION | OBJECT_INVERSE)) && from->inversions == 0);
 }
 
 static void dissolve(Compile *c, const Object *o, const Inherited *from)
@@ -517,7 +526,7 @@ void flatten_top(Compile *c, const Object *o, const Inherited *from)
     }
     Inherited in = *from;
     in.prim_flags |= flags_of(o);
-    if (o->kind == OBJECT_SHAPE && o->n_clipped_by == 0 && o->n_bounded_by == 0 && !(o->flags & OBJECT_BOUNDED_BY_CLIP)) {
+    if (o->kind == OBJECT_SHAPE && !is_cut(o)) {
         uint32_t first = c->prim.n, n = shape_prims(c, o, &in);
         for (uint32_t i = 0; i < n; i++)
             body_add(c, first + i);

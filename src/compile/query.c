@@ -208,8 +208,9 @@ static Bounds extent_of(Query *q, const Object *o)
         b = bounds_transformed(extent_of_union(q, o), &place);
     }
     b = as_stored(b);
-    b = cut_by(q, b, o->bounded_by, o->n_bounded_by);
-    return cut_by(q, b, o->clipped_by, o->n_clipped_by);
+    const ObjectMore *more = object_more(o);
+    b = cut_by(q, b, more->bounded_by, more->n_bounded_by);
+    return cut_by(q, b, more->clipped_by, more->n_clipped_by);
 }
 
 Bounds query_extent(void *query, const Object *o)

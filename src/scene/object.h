@@ -36,26 +36,41 @@ typedef struct PhotonsBlock {
     float target_spacing;
 } PhotonsBlock;
 
-struct Object {
-    ObjectKind kind;
-    uint32_t flags;
-    Loc loc;
-    const ShapeOps *ops;                       /* SHAPE: the row ... */
-    const void *params;                        /* ... and what it parsed */
-    const LightSource *light;                  /* LIGHT */
-    const Object *const *child;                /* CSG kinds and groups */
-    uint32_t n_child;
-    uint32_t depth;                            /* of the tree below, clips and the like included; limited by the parser */
-    const Affine *place;                       /* every transform written in the block; here and below NULL is identity */
-    const Texture *texture, *interior_texture; /* top layer first; NULL: inherited, then the default texture */
-    const Affine *texture_place, *interior_texture_place;      /* often the same pointer as place */
-    const Texture *default_texture;            /* in force when the outermost statement ended */
+/* What most objects do without. */
+typedef struct ObjectMore {
+    const Texture *interior_texture;           /* NULL: none */
+    const Affine *interior_texture_place;
     const Interior *interior;                  /* NULL: the parent's, or an empty one */
     const Affine *interior_place;              /* for media densities */
     const Object *const *clipped_by, *const *bounded_by;       /* already carry every transform written after them */
     uint32_t n_clipped_by, n_bounded_by;
     const PhotonsBlock *photons;
-    float importance;                          /* radiosity { importance }; 0 = not written */
+} ObjectMore;
+
+/* Scenes have hundreds of thousands of them. */
+struct Object {
+    ObjectKind kind;
+    uint32_t flags;
+    Loc loc;
+    const ShapeOps *ops;                       /* SHAPE: the row ... */
+    union {
+        const void *params;                    /* ... and what it parsed */
+        const LightSource *light;              /* LIGHT */
+        const Object *const *child;            /* CSG kinds and groups; n_child is 0 for all others */
+    };
+    uint32_t n_child;
+    uint32_t depth;                            /* of the tree below, clips and the like included; limited by the parser */
+    const Affine *place;                       /* every transform written in the block; here and below NULL is identity */
+    const Texture *texture;                    /* top layer first; NULL: inherited, then the default texture */
+    const Affine *texture_place;               /* often the same pointer as place */
+    const Texture *default_texture;            /* in force when the outermost statement ended */
+    const ObjectMore *more;                    /* NULL: nothing of it */
 };
+
+static inline const ObjectMore *object_more(const Object *o)
+{
+    static const ObjectMore nothing = { 0 };
+    return o->more != NULL ? o->more : &nothing;
+}
 
 #endif

@@ -28,7 +28,6 @@ typedef struct Blocks {
     Scene *scene;
     const Texture *default_texture;
     CameraDef default_camera;
-    float default_importance;
     bool has_noise_generator;                  /* written: #version no longer changes it */
     const ShapeOps *shape_of[N_KEYWORDS];
     const PatternOps *pattern_of[N_KEYWORDS];
@@ -138,6 +137,7 @@ const Interior *interior_with_finish(Parser *p, const Interior *base, const Fini
 /* object.c, light.c */
 typedef struct ObjectDraft {
     Object o;
+    ObjectMore more;                           /* o.more, once it is closed */
     Affine *own_place;                         /* o.place, if it was made in this block and may be changed in place */
 } ObjectDraft;
 
@@ -152,6 +152,7 @@ void draft_holds(Parser *p, ObjectDraft *d, const Object *part);   /* the depth 
 bool scene_object(Parser *p);                  /* a statement of the scene, if the next token begins an object */
 Object *light_block(Parser *p);                /* at `light_source` */
 const PhotonsBlock *photons_block(Parser *p, const PhotonsBlock *base, bool light);        /* at the brace */
+void importance_block(Parser *p);              /* at `radiosity`, of objects and #default: read and checked, but not heeded */
 
 /* camera.c, global.c, atmosphere.c: at the brace. */
 CameraDef camera_default(void);

@@ -80,12 +80,12 @@ static void looks_like(Parser *p, ObjectDraft *light, LightSource *l)
 static void projected_through(Parser *p, ObjectDraft *light, LightSource *l)
 {
     ObjectDraft d = attached(p, l->projected_through, "projected_through");
-    if (d.o.texture != NULL || d.o.interior_texture != NULL)
+    if (d.o.texture != NULL || d.more.interior_texture != NULL)
         parse_warn(p, "Projected through objects can not have a texture.");
-    if (d.o.interior != NULL)
+    if (d.more.interior != NULL)
         parse_warn(p, "Projected through objects can not have an interior.");
-    d.o.texture = d.o.interior_texture = NULL;
-    d.o.interior = NULL;
+    d.o.texture = d.more.interior_texture = NULL;
+    d.more.interior = NULL;
     if (light->o.place != NULL) {
         Affine back = affine_inverse(*light->o.place);
         draft_move(p, &d, &back);
@@ -169,7 +169,7 @@ static bool item(Parser *p, ObjectDraft *d, LightSource *l, bool copied)
         return true;
     case KW_LOOKS_LIKE: looks_like(p, d, l); return true;
     case KW_PROJECTED_THROUGH: projected_through(p, d, l); return true;
-    case KW_PHOTONS: parse_skip(p); d->o.photons = photons_block(p, d->o.photons, true); return true;
+    case KW_PHOTONS: parse_skip(p); d->more.photons = photons_block(p, d->more.photons, true); return true;
     default:
         if (area_item(p, d, l, keyword))
             return true;

@@ -2,6 +2,8 @@
  *
  * A transform is composed at once into the places of all that the object carries so far. Places that are equal are the
  * same Affine, and one that began in this block is changed in place: an object costs one Affine, not one per word. */
+#include <string.h>
+
 #include "sdl/blocks.h"
 
 static const char *const kind_word[] = {       /* of what csg() reads */
@@ -52,19 +54,21 @@ void draft_move(Parser *p, ObjectDraft *d, const Affine *move)
         o->place = d->own_place = (Affine *)(uintptr_t)moved(p, old, move);
     if (o->texture != NULL && !(o->flags & OBJECT_UV_MAPPING))
         o->texture_place = o->texture_place == old ? o->place : moved(p, o->texture_place, move);
-    if (o->interior_texture != NULL && !(o->flags & OBJECT_UV_MAPPING))
-        o->interior_texture_place = o->interior_texture_place == old ? o->place : moved(p, o->interior_texture_place, move);
-    if (o->interior != NULL)
-        o->interior_place = o->interior_place == old ? o->place : moved(p, o->interior_place, move);
-    if (o->n_clipped_by > 0)
-        o->clipped_by = moved_list(p, o->clipped_by, o->n_clipped_by, move);
-    if (o->n_bounded_by > 0)
-        o->bounded_by = o->flags & OBJECT_BOUNDED_BY_CLIP ? o->clipped_by : moved_list(p, o->bounded_by, o->n_bounded_by, move);
+    ObjectMore *m = &d->more;
+    if (m->interior_texture != NULL && !(o->flags & OBJECT_UV_MAPPING))
+        m->interior_texture_place = m->interior_texture_place == old ? o->place : moved(p, m->interior_texture_place, move);
+    if (m->interior != NULL)
+        m->interior_place = m->interior_place == old ? o->place : moved(p, m->interior_place, move);
+    if (m->n_clipped_by > 0)
+        m->clipped_by = moved_list(p, m->clipped_by, m->n_clipped_by, move);
+    if (m->n_bounded_by > 0)
+        m->bounded_by = o->flags & OBJECT_BOUNDED_BY_CLIP ? m->clipped_by : moved_list(p, m->bounded_by, m->n_bounded_by, move);
 }
 
 void draft_begin(ObjectDraft *d, const Object *from)
 {
     d->o = *from;
+    d->more = *object_more(from);
     d->own_place = NULL;
 }
 
@@ -73,7 +77,7 @@ const Object *object_moved(Parser *p, const Object *o, const Affine *move)
     ObjectDraft d;
     draft_begin(&d, o);
     draft_move(p, &d, move);
-    return arena_copy(parse_arena(p), &d.o, sizeof d.o);
+    return draft_close(p, &d);
 }
 
 /* What is moved already must not move with what is added now: the transforms so far go into the textures themselves. */
@@ -88,15 +92,15 @@ static void settle_texture(Parser *p, const Texture **texture, const Affine **pl
     *place = NULL;
 }
 
-static void settle_interior(Parser *p, Object *o)
+static void settle_interior(Parser *p, ObjectMore *m)
 {
-    if (o->interior == NULL || o->interior_place == NULL)
+    if (m->interior == NULL || m->interior_place == NULL)
         return;
     Moves moves;
-    moves.move[0] = *o->interior_place;
+    moves.move[0] = *m->interior_place;
     moves.n = 1;
-    o->interior = interior_moved(p, o->interior, &moves);
-    o->interior_place = NULL;
+    m->interior = interior_moved(p, m->interior, &moves);
+    m->interior_place = NULL;
 }
 
 /* ---- clipped_by, bounded_by ---- */
@@ -132,46 +136,46 @@ static void add_bounds(Parser *p, ObjectDraft *d, const Object *const **to, uint
     *n = list.n;
 }
 
-static void link(Object *o)
+static void link(ObjectDraft *d)
 {
-    if (o->n_clipped_by > 0)
-        o->flags |= OBJECT_BOUNDED_BY_CLIP;
+    if (d->more.n_clipped_by > 0)
+        d->o.flags |= OBJECT_BOUNDED_BY_CLIP;
 }
 
 static void clipped_by(Parser *p, ObjectDraft *d)
 {
-    Object *o = &d->o;
+    ObjectMore *m = &d->more;
     block_open(p, "clipped_by");
     if (parse_accept(p, KW_BOUNDED_BY)) {
-        if (o->n_clipped_by > 0)
+        if (m->n_clipped_by > 0)
             parse_fail(p, "Cannot link bounds with previous clips.");
-        o->clipped_by = o->bounded_by;
-        o->n_clipped_by = o->n_bounded_by;
-        link(o);
+        m->clipped_by = m->bounded_by;
+        m->n_clipped_by = m->n_bounded_by;
+        link(d);
         block_close(p, "clipped_by");
         return;
     }
-    if (o->flags & OBJECT_BOUNDED_BY_CLIP)
+    if (d->o.flags & OBJECT_BOUNDED_BY_CLIP)
         parse_fail(p, "Cannot add clips after linking bounds and clips.");
-    add_bounds(p, d, &o->clipped_by, &o->n_clipped_by, "clipped_by");
+    add_bounds(p, d, &m->clipped_by, &m->n_clipped_by, "clipped_by");
 }
 
 static void bounded_by(Parser *p, ObjectDraft *d)
 {
-    Object *o = &d->o;
+    ObjectMore *m = &d->more;
     block_open(p, "bounded_by");
     if (parse_accept(p, KW_CLIPPED_BY)) {
-        if (o->n_bounded_by > 0)
+        if (m->n_bounded_by > 0)
             parse_fail(p, "Cannot link clips with previous bounds.");
-        o->bounded_by = o->clipped_by;
-        o->n_bounded_by = o->n_clipped_by;
-        link(o);
+        m->bounded_by = m->clipped_by;
+        m->n_bounded_by = m->n_clipped_by;
+        link(d);
         block_close(p, "bounded_by");
         return;
     }
-    if (o->flags & OBJECT_BOUNDED_BY_CLIP)
+    if (d->o.flags & OBJECT_BOUNDED_BY_CLIP)
         parse_fail(p, "Cannot add bounds after linking bounds and clips.");
-    add_bounds(p, d, &o->bounded_by, &o->n_bounded_by, "bounded_by");
+    add_bounds(p, d, &m->bounded_by, &m->n_bounded_by, "bounded_by");
 }
 
 /* ---- modifiers ---- */
@@ -192,46 +196,49 @@ static void flag_item(Parser *p, Object *o, uint32_t flag)
     set(o, flag, on(p));
 }
 
-static void add_material(Parser *p, Object *o)
+static void add_outside(Parser *p, Object *o, const Texture *t)
+{
+    settle_texture(p, &o->texture, &o->texture_place);
+    o->texture = texture_layered(p, o->texture, t);
+}
+
+static void add_inside(Parser *p, ObjectMore *m, const Texture *t)
+{
+    settle_texture(p, &m->interior_texture, &m->interior_texture_place);
+    m->interior_texture = texture_layered(p, m->interior_texture, t);
+}
+
+static void add_material(Parser *p, ObjectDraft *d)
 {
     const Material *m = material_block(p);
-    if (m->texture != NULL) {
-        settle_texture(p, &o->texture, &o->texture_place);
-        o->texture = texture_layered(p, o->texture, m->texture);
-    }
-    if (m->interior_texture != NULL) {
-        settle_texture(p, &o->interior_texture, &o->interior_texture_place);
-        o->interior_texture = texture_layered(p, o->interior_texture, m->interior_texture);
-    }
+    if (m->texture != NULL)
+        add_outside(p, &d->o, m->texture);
+    if (m->interior_texture != NULL)
+        add_inside(p, &d->more, m->interior_texture);
     if (m->interior != NULL) {
-        o->interior = m->interior;
-        o->interior_place = NULL;
+        d->more.interior = m->interior;
+        d->more.interior_place = NULL;
     }
 }
 
-static bool texture_item(Parser *p, Object *o, int keyword)
+static bool texture_item(Parser *p, ObjectDraft *d, int keyword)
 {
+    Object *o = &d->o;
     switch (keyword) {
-    case KW_TEXTURE:
-        settle_texture(p, &o->texture, &o->texture_place);
-        o->texture = texture_layered(p, o->texture, parse_texture(p));
-        return true;
-    case KW_INTERIOR_TEXTURE:
-        settle_texture(p, &o->interior_texture, &o->interior_texture_place);
-        o->interior_texture = texture_layered(p, o->interior_texture, parse_texture(p));
-        return true;
+    case KW_TEXTURE: add_outside(p, o, parse_texture(p)); return true;
+    case KW_INTERIOR_TEXTURE: add_inside(p, &d->more, parse_texture(p)); return true;
     case KW_PIGMENT: case KW_NORMAL: case KW_FINISH:
         settle_texture(p, &o->texture, &o->texture_place);
         o->texture = texture_part(p, o->texture != NULL ? o->texture : parse_blocks(p)->default_texture);
         return true;
     case KW_INTERIOR:
         parse_skip(p);
-        settle_interior(p, o);
-        o->interior = interior_block(p, o->interior);
+        settle_interior(p, &d->more);
+        d->more.interior = interior_block(p, d->more.interior);
         return true;
     case KW_MATERIAL:
         parse_skip(p);
-        add_material(p, o);
+        add_material(p, d);
         return true;
     case KW_UV_MAPPING:
         parse_skip(p);
@@ -280,12 +287,13 @@ static void csg_flag(Parser *p, Object *o, int keyword)
     o->flags |= OBJECT_CUTAWAY_TEXTURES;
 }
 
-static void radiosity(Parser *p, Object *o)
+void importance_block(Parser *p)
 {
+    parse_skip(p);
     block_open(p, "radiosity");
     while (parse_accept(p, KW_IMPORTANCE)) {
-        o->importance = (float)parse_float(p);
-        if (!(o->importance > 0 && o->importance <= 1))
+        float importance = (float)parse_float(p);
+        if (!(importance > 0 && importance <= 1))
             parse_fail(p, "Radiosity importance must be greater than 0.0 and at most 1.0.");
     }
     block_close(p, "radiosity");
@@ -311,8 +319,8 @@ static bool plain_modifier(Parser *p, ObjectDraft *d, int keyword)
     case KW_NO_RADIOSITY: flag_item(p, o, OBJECT_NO_RADIOSITY); return true;
     case KW_STURM: case KW_OPEN: case KW_HIERARCHY: return shape_flag(p, o, keyword);
     case KW_SPLIT_UNION: case KW_CUTAWAY_TEXTURES: csg_flag(p, o, keyword); return true;
-    case KW_PHOTONS: parse_skip(p); o->photons = photons_block(p, o->photons, false); return true;
-    case KW_RADIOSITY: parse_skip(p); radiosity(p, o); return true;
+    case KW_PHOTONS: parse_skip(p); d->more.photons = photons_block(p, d->more.photons, false); return true;
+    case KW_RADIOSITY: importance_block(p); return true;
     case KW_CLIPPED_BY: parse_skip(p); clipped_by(p, d); return true;
     case KW_BOUNDED_BY: parse_skip(p); bounded_by(p, d); return true;
     case KW_DTAG: parse_skip(p); (void)parse_string(p); return true;
@@ -334,19 +342,17 @@ static void check_normals(Parser *p, const Texture *t)
 }
 
 /* After the last modifier: what can only be checked or joined now. */
-static void complete(Parser *p, Object *o)
+static void complete(Parser *p, ObjectDraft *d)
 {
-    if (o->interior_texture != NULL && o->texture == NULL)
+    if (d->more.interior_texture != NULL && d->o.texture == NULL)
         parse_fail(p, "Interior texture requires an exterior texture.");
-    check_normals(p, o->texture);
-    check_normals(p, o->interior_texture);
-    for (const Texture *t = o->texture; t != NULL; t = t->below)
+    check_normals(p, d->o.texture);
+    check_normals(p, d->more.interior_texture);
+    for (const Texture *t = d->o.texture; t != NULL; t = t->below)
         if (t->kind == TEXTURE_PLAIN && (t->finish->has_ior || t->finish->has_caustics || t->finish->has_refraction)) {
-            o->interior = interior_with_finish(p, o->interior, t->finish);
+            d->more.interior = interior_with_finish(p, d->more.interior, t->finish);
             break;
         }
-    if (o->importance == 0)
-        o->importance = parse_blocks(p)->default_importance;
 }
 
 /* A word of the shape itself: `threshold`, `inside_vector`. */
@@ -365,11 +371,9 @@ static void modifiers(Parser *p, ObjectDraft *d, const char *word, const ShapeOp
 {
     Object *o = &d->o;
     bool modified = false;                     /* the shape's own words come first, `open` among them */
-    for (;;) {
+    while (!parse_at_close(p)) {
         int keyword = parse_peek(p);
         Affine move;
-        if (keyword == TOK_CLOSE)
-            break;
         bool is_own = own_item(p, o, own, params);
         if (modified && (is_own || keyword == KW_OPEN))
             parse_mend(p, "A word of the shape itself behind its modifiers");
@@ -377,7 +381,7 @@ static void modifiers(Parser *p, ObjectDraft *d, const char *word, const ShapeOp
             continue;
         if (parse_move(p, &move)) {
             draft_move(p, d, &move);
-        } else if (!(o->kind != OBJECT_LIGHT_GROUP && texture_item(p, o, keyword)) && !plain_modifier(p, d, keyword)) {
+        } else if (!(o->kind != OBJECT_LIGHT_GROUP && texture_item(p, d, keyword)) && !plain_modifier(p, d, keyword)) {
             if (!parse_at_colour(p))
                 break;
             parse_warn(p, "Quick color belongs in texture. Color ignored.");
@@ -388,12 +392,15 @@ static void modifiers(Parser *p, ObjectDraft *d, const char *word, const ShapeOp
     if (own != NULL && own->finish != NULL)
         own->finish(p, params);
     block_close(p, word);
-    complete(p, o);
+    complete(p, d);
 }
 
 Object *draft_close(Parser *p, const ObjectDraft *d)
 {
-    return arena_copy(parse_arena(p), &d->o, sizeof d->o);
+    Object *o = arena_copy(parse_arena(p), &d->o, sizeof d->o);
+    if (memcmp(&d->more, object_more(o), sizeof d->more) != 0)
+        o->more = arena_copy(parse_arena(p), &d->more, sizeof d->more);
+    return o;
 }
 
 void object_modifiers(Parser *p, ObjectDraft *d, const char *word)

@@ -16,18 +16,6 @@ static void default_texture(Parser *p, Blocks *b)
     b->default_texture = t;
 }
 
-static void default_importance(Parser *p, Blocks *b)
-{
-    parse_skip(p);
-    block_open(p, "radiosity");
-    while (parse_accept(p, KW_IMPORTANCE)) {
-        b->default_importance = (float)parse_float(p);
-        if (!(b->default_importance > 0 && b->default_importance <= 1))
-            parse_fail(p, "Radiosity importance must be greater than 0.0 and at most 1.0.");
-    }
-    block_close(p, "radiosity");
-}
-
 void block_default(Parser *p)
 {
     Blocks *b = parse_blocks(p);
@@ -42,7 +30,7 @@ void block_default(Parser *p)
             parse_skip(p);
             b->default_camera = camera_block(p);
             break;
-        case KW_RADIOSITY: default_importance(p, b); break;
+        case KW_RADIOSITY: importance_block(p); break;
         default: block_close(p, "default"); return;
         }
     }

@@ -208,6 +208,13 @@ static Object *copy(Arena *a, const Object *o)
     return arena_copy(a, o, sizeof *o);
 }
 
+static ObjectMore *own_more(Arena *a, Object *o)
+{
+    ObjectMore *more = arena_copy(a, object_more(o), sizeof *more);
+    o->more = more;
+    return more;
+}
+
 const Object *inverted(Arena *a, const Object *o)
 {
     Object *out = copy(a, o);
@@ -228,24 +235,27 @@ const Object *placed(Arena *a, const Object *o, Affine place)
     Object *out = copy(a, o);
     Affine both = affine_then(affine_of(o->place), place);
     out->place = arena_copy(a, &both, sizeof both);
-    out->clipped_by = placed_list(a, o->clipped_by, o->n_clipped_by, place);
-    out->bounded_by = placed_list(a, o->bounded_by, o->n_bounded_by, place);
+    ObjectMore *more = own_more(a, out);
+    more->clipped_by = placed_list(a, more->clipped_by, more->n_clipped_by, place);
+    more->bounded_by = placed_list(a, more->bounded_by, more->n_bounded_by, place);
     return out;
 }
 
 const Object *clipped_to(Arena *a, const Object *o, const Object *clip)
 {
     Object *out = copy(a, o);
-    out->clipped_by = arena_copy(a, &clip, sizeof clip);
-    out->n_clipped_by = 1;
+    ObjectMore *more = own_more(a, out);
+    more->clipped_by = arena_copy(a, &clip, sizeof clip);
+    more->n_clipped_by = 1;
     return out;
 }
 
 const Object *bounded_to(Arena *a, const Object *o, const Object *bound)
 {
     Object *out = copy(a, o);
-    out->bounded_by = arena_copy(a, &bound, sizeof bound);
-    out->n_bounded_by = 1;
+    ObjectMore *more = own_more(a, out);
+    more->bounded_by = arena_copy(a, &bound, sizeof bound);
+    more->n_bounded_by = 1;
     return out;
 }
 

@@ -91,10 +91,10 @@ static void clips_and_bounds_move_with_what_follows_them(void **state)
     (void)state;
     Parsed *s = good(HEAD "sphere { 0, 1 translate x clipped_by { plane { y, 0 } rotate 90*z } translate y bounded_by { clipped_by } translate z }");
     const Object *o = s->scene.object[0];
-    assert_int_equal(o->n_clipped_by, 1);
-    near_vec(carried(o->clipped_by[0]->place, vec3(0, 0, 0)), 0, 1, 1);
-    near_vec(carried(o->clipped_by[0]->place, vec3(1, 0, 0)), 0, 2, 1);
-    assert_int_equal(o->n_bounded_by, 1);
+    assert_int_equal(object_more(o)->n_clipped_by, 1);
+    near_vec(carried(object_more(o)->clipped_by[0]->place, vec3(0, 0, 0)), 0, 1, 1);
+    near_vec(carried(object_more(o)->clipped_by[0]->place, vec3(1, 0, 0)), 0, 2, 1);
+    assert_int_equal(object_more(o)->n_bounded_by, 1);
     parsed_free(s);
 }
 
@@ -111,7 +111,7 @@ static void old_finishes_give_their_ior_to_the_interior(void **state)
 {
     (void)state;
     Parsed *s = good(HEAD "sphere { 0, 1 pigment { rgbf 1 } finish { ior 1.5 } interior { ior 1.2 fade_power 2 } }");
-    const Interior *i = s->scene.object[0]->interior;
+    const Interior *i = object_more(s->scene.object[0])->interior;
     assert_true(i->ior == 1.5f && i->fade_power == 2);
     parsed_free(s);
 }
@@ -353,7 +353,7 @@ static void interiors_and_media_have_their_defaults(void **state)
 {
     (void)state;
     Parsed *s = good(HEAD "sphere { 0, 1 interior { media { scattering { 5, rgb 1 eccentricity 0.3 } density { spherical } density { rgb 2 } scale 2 } } }\nmedia { emission 1 }");
-    const Interior *i = s->scene.object[0]->interior;
+    const Interior *i = object_more(s->scene.object[0])->interior;
     assert_true(i->ior == 1 && i->dispersion == 1 && i->dispersion_samples == 7 && i->n_media == 1);
     const Media *m = i->media;
     assert_true(m->method == 3 && m->intervals == 1 && m->samples_min == 10 && m->ratio == 0.9f && m->collect);

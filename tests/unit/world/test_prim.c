@@ -116,7 +116,8 @@ static void flags_hide_from_the_rays_they_name(void **state)
 static const Object *filled(Arena *a, const Object *o, const Interior *interior)
 {
     Object *out = arena_copy(a, o, sizeof *o);
-    out->interior = interior;
+    ObjectMore more = { .interior = interior };
+    out->more = arena_copy(a, &more, sizeof more);
     return out;
 }
 
