@@ -42,6 +42,12 @@ Bounds item_hull(const Compile *c, uint32_t item)
 
 /* ---- bounds that hold all of a body ---- */
 
+/* Nothing is inside the child beyond its box, and it has one. */
+static bool is_solid(const Compile *c, uint32_t item)
+{
+    return !item_reach(c, item).co && (is_node(item) || !(c->prim.data[item].ops->flags & SHAPE_NO_BOX_IN_CSG));
+}
+
 /* The box of a prim along the axes of a space that lies askew to the world's. */
 static Bounds prim_hull_in(const Compile *c, uint32_t item, const Affine *to_space)
 {
@@ -72,7 +78,7 @@ static Bounds item_hull_in(const Compile *c, uint32_t item, const Affine *to_spa
         uint32_t child = c->csg_child.data[node->first + i];
         Bounds hull = item_hull_in(c, child, to_space);
         all = bounds_union(all, hull);
-        if (!is_node(child) && !item_reach(c, child).co && !(c->prim.data[child].ops->flags & SHAPE_NO_BOX_IN_CSG))
+        if (!is_node(child) && is_solid(c, child))
             common = bounds_intersection(common, hull);
     }
     return node->op == CSG_ALL && !(node->flags & CSG_BOUND) ? bounds_intersection(all, common) : all;
@@ -118,6 +124,35 @@ static Bounds cut_by_child(const Compile *c, uint32_t item, Bounds box)
     return bounds_intersection(box, bounds_transformed(local, place));
 }
 
+static bool is_plane(const Compile *c, uint32_t item)
+{
+    return !is_node(item) && c->prim.data[item].ops->half_space != NULL;
+}
+
+/* How far a body goes along n: no point of it has a larger n . p. */
+static double item_reach_along(const Compile *c, uint32_t item, Vec3 n)
+{
+    if (!is_node(item)) {
+        const Prim *prim = &c->prim.data[item];
+        if (prim->ops->reach != NULL)
+            return dot(n, affine_point(prim->place, vec3(0, 0, 0))) + prim->ops->reach(prim->data, affine_normal_back(prim->place, n));
+        const Bounds *box = &c->box.data[item];
+        return bounds_is_finite(*box) ? fmax(n.x * box->lo.x, n.x * box->hi.x) + fmax(n.y * box->lo.y, n.y * box->hi.y) +
+                                            fmax(n.z * box->lo.z, n.z * box->hi.z) : INFINITY;
+    }
+    const CsgNode *node = &c->csg.data[~item];
+    double all = -INFINITY, common = INFINITY;
+    uint32_t count = node->flags & CSG_BOUND ? 1 : node->n;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t child = c->csg_child.data[node->first + i];
+        double at = item_reach_along(c, child, n);
+        all = fmax(all, at);
+        if (is_solid(c, child) && !is_plane(c, child))
+            common = fmin(common, at);
+    }
+    return node->op == CSG_ALL && !(node->flags & CSG_BOUND) ? fmin(all, common) : all;
+}
+
 static HalfSpace half_space_of(const Prim *prim)
 {
     const Affine *place = prim->place;
@@ -146,6 +181,38 @@ static Bounds cut_by_planes(const Compile *c, const Items *children, Bounds box)
         if (!is_node(children->data[i]) && c->prim.data[children->data[i]].ops->half_space != NULL)
             h[n++] = half_space_of(&c->prim.data[children->data[i]]);
     return bounds_intersection(box, polytope_box(h, n));
+}
+
+/* Half spaces that hold an intersection: those of its planes that stand along no axis of the world, and, against each of them, how
+ * far its solid children go. */
+static uint32_t askew_sides(const Compile *c, const uint32_t *child, uint32_t n_children, HalfSpace h[POLYTOPE_MAX])
+{
+    uint32_t n_planes = 0;
+    for (uint32_t i = 0; i < n_children && n_planes < POLYTOPE_MAX / 2; i++)
+        if (is_plane(c, child[i])) {
+            h[n_planes] = half_space_of(&c->prim.data[child[i]]);
+            n_planes += isfinite(h[n_planes].distance) && max_abs(h[n_planes].normal) < 1;
+        }
+    uint32_t n = n_planes;
+    for (uint32_t k = 0; k < n_planes; k++) {
+        h[n] = (HalfSpace){ negated(h[k].normal), INFINITY };
+        for (uint32_t i = 0; i < n_children; i++)
+            if (is_solid(c, child[i]) && !is_plane(c, child[i]))
+                h[n].distance = fmin(h[n].distance, item_reach_along(c, child[i], h[n].normal));
+        n += isfinite(h[n].distance);
+    }
+    return n;
+}
+
+/* What planes that stand askew leave of a finite box. */
+static Bounds cut_askew(const Compile *c, const Items *children, Bounds box)
+{
+    HalfSpace h[POLYTOPE_MAX];
+    uint32_t n = askew_sides(c, children->data, children->n, h);
+    if (n == 0)
+        return box;
+    Bounds left = polytope_within(box, h, n);
+    return bounds_is_empty(left) ? box : bounds_intersection(box, left);
 }
 
 /* Leaves that all contain a point if some intersection does: planes, and those that know what a box leaves of them. */
@@ -205,6 +272,8 @@ static Reach reach_of(const Compile *c, CsgOp op, const Items *children)
             within = cut_by_child(c, children->data[i], within);
     if (op == CSG_ALL && !bounds_is_finite(within) && !bounds_is_empty(within) && n_co < children->n)
         within = cut_by_slices(c, children, cut_by_planes(c, children, within));
+    else if (op == CSG_ALL && !bounds_is_empty(within) && n_co < children->n)
+        within = cut_askew(c, children, within);
     if (op == CSG_ALL)
         return n_co > 0 && n_co == children->n ? (Reach){ co_around, true } : (Reach){ within, false };
     return n_co > 0 ? (Reach){ co_within, true } : (Reach){ around, false };
@@ -275,9 +344,23 @@ static Bounds bound_box(const Compile *c, const CsgNode *node)
     return box;
 }
 
+/* Planes of an intersection are seen where they bound it: their boxes shrink to its faces. */
+static void cut_to_faces(Compile *c, const CsgNode *node, Bounds box)
+{
+    HalfSpace h[POLYTOPE_MAX];
+    const uint32_t *child = &c->csg_child.data[node->first];
+    uint32_t n = askew_sides(c, child, node->n, h);
+    for (uint32_t i = 0; i < node->n; i++)
+        if (is_plane(c, child[i])) {
+            HalfSpace plane = half_space_of(&c->prim.data[child[i]]);
+            if (isfinite(plane.distance))
+                c->box.data[child[i]] = bounds_intersection(box, polytope_face(plane, box, h, n));
+        }
+}
+
 /* What a bound that is too small leaves outside still shows on rays that meet the bound, so bounds cut no boxes. But a leaf that
  * would have no finite box without them is looked for within them only: its hits outside do not count (PRIM_BOXED). */
-static void cut_item(Compile *c, uint32_t item, Bounds limit, Bounds bound)
+static void cut_item(Compile *c, uint32_t item, Bounds limit, Bounds bound, bool to_faces)
 {
     if (!is_node(item)) {
         Bounds box = bounds_intersection(c->box.data[item], limit);
@@ -295,7 +378,9 @@ static void cut_item(Compile *c, uint32_t item, Bounds limit, Bounds bound)
         limit = bounds_intersection(limit, node->box);
     uint32_t n = node->flags & CSG_BOUND ? 1 : node->n;
     for (uint32_t i = 0; i < n; i++)
-        cut_item(c, c->csg_child.data[node->first + i], limit, bound);
+        cut_item(c, c->csg_child.data[node->first + i], limit, bound, to_faces);
+    if (to_faces && node->op == CSG_ALL && !(node->flags & (CSG_CLIP | CSG_BOUND | CSG_INVERSE)) && bounds_is_finite(limit))
+        cut_to_faces(c, node, limit);
 }
 
 /* ---- when all is known ---- */
@@ -350,9 +435,19 @@ static void finish_node(Compile *c, uint32_t index, Items *child)
             finish_node(c, ~all.data[i], child);
 }
 
+/* Bodies that the accelerator does not find are known by the boxes of all their leaves. Nodes stand in c->body in their order:
+ * *at is where the search for the last one ended. */
+static bool is_body(const Compile *c, uint32_t node, uint32_t *at)
+{
+    while (*at < c->body.n && (!is_node(c->body.data[*at]) || ~c->body.data[*at] < node))
+        ++*at;
+    return *at < c->body.n && ~c->body.data[*at] == node;
+}
+
 void csg_finish(Compile *c)
 {
     Items child = { 0 };
+    uint32_t body = 0;
     for (uint32_t k = 1; k < c->csg.n; k++)
         if (c->csg.data[k].parent == 0)
             finish_node(c, k, &child);
@@ -361,5 +456,5 @@ void csg_finish(Compile *c)
     c->csg_child.capacity = child.capacity;
     for (uint32_t k = 1; k < c->csg.n; k++)    /* not before: the trees are over boxes as they are */
         if (c->csg.data[k].parent == 0)
-            cut_item(c, ~k, bounds_everything(), bounds_everything());
+            cut_item(c, ~k, bounds_everything(), bounds_everything(), !is_body(c, k, &body));
 }

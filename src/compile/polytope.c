@@ -63,3 +63,90 @@ Bounds polytope_box(const HalfSpace *h, uint32_t n)
         return bounds_everything();
     return bounds_grown(box, 1e-7 * fmax(max_abs(box.lo), max_abs(box.hi)));
 }
+
+/* ---- faces ---- */
+
+/* How far outside a half space a point may lie that counts as inside, relative to the lengths at hand: many times the rounding of
+ * hits and the tolerances of inside tests. */
+static const double LOOSE = 0x1p-28;
+
+typedef struct Polygon {
+    uint32_t n;
+    Vec3 corner[4 + 6 + POLYTOPE_MAX];         /* four, and one for each cut */
+} Polygon;
+
+/* What a half space leaves of it (Sutherland and Hodgman, Reentrant polygon clipping, 1974). */
+static void polygon_cut(Polygon *p, HalfSpace h)
+{
+    Polygon from = *p;
+    p->n = 0;
+    for (uint32_t i = 0; i < from.n; i++) {
+        Vec3 a = from.corner[i], b = from.corner[(i + 1) % from.n];
+        double out_a = dot(h.normal, a) - h.distance, out_b = dot(h.normal, b) - h.distance;
+        if (out_a <= 0)
+            p->corner[p->n++] = a;
+        if ((out_a <= 0) != (out_b <= 0))
+            p->corner[p->n++] = lerp(a, b, out_a / (out_a - out_b));
+    }
+}
+
+static HalfSpace side_of(Bounds box, int side)
+{
+    HalfSpace h = { vec3(0, 0, 0), side < 3 ? -vec3_at(box.lo, side) : vec3_at(box.hi, side - 3) };
+    vec3_set(&h.normal, side % 3, side < 3 ? -1 : 1);
+    return h;
+}
+
+/* The part of a plane that lies in the box and in all n half spaces. */
+static Bounds face(HalfSpace plane, Bounds box, const HalfSpace *h, uint32_t n)
+{
+    Vec3 middle = lerp(box.lo, box.hi, 0.5);
+    middle = add(middle, scaled(plane.normal, plane.distance - dot(plane.normal, middle)));
+    double size = 2 * length(sub(box.hi, box.lo));
+    Vec3 aside = cross(plane.normal, fabs(plane.normal.x) < 0.5 ? vec3(size, 0, 0) : vec3(0, size, 0));
+    Vec3 up = cross(plane.normal, aside);
+    Polygon p = { 4, { add(middle, aside), add(middle, up), sub(middle, aside), sub(middle, up) } };
+    for (int side = 0; side < 6; side++)
+        polygon_cut(&p, side_of(box, side));
+    for (uint32_t i = 0; i < n; i++)
+        polygon_cut(&p, h[i]);
+    return bounds_of_points(p.corner, p.n);
+}
+
+static double size_of(Bounds box, const HalfSpace *h, uint32_t n)
+{
+    double size = fmax(max_abs(box.lo), max_abs(box.hi));
+    for (uint32_t i = 0; i < n; i++)
+        size = fmax(size, fabs(h[i].distance));
+    return size;
+}
+
+static void loosened(const HalfSpace *h, uint32_t n, double by, HalfSpace *out)
+{
+    for (uint32_t i = 0; i < n; i++)
+        out[i] = (HalfSpace){ h[i].normal, h[i].distance + by };
+}
+
+Bounds polytope_face(HalfSpace plane, Bounds box, const HalfSpace *h, uint32_t n)
+{
+    double margin = LOOSE * size_of(box, h, n);
+    HalfSpace loose[POLYTOPE_MAX];
+    loosened(h, n, margin, loose);
+    Bounds b = face(plane, bounds_grown(box, margin), loose, n);
+    return bounds_is_empty(b) ? b : bounds_grown(b, margin);
+}
+
+/* Faces stand a margin outside, and are cut another margin further outside, where rounding cannot cut them by themselves. */
+Bounds polytope_within(Bounds box, const HalfSpace *h, uint32_t n)
+{
+    double margin = LOOSE * size_of(box, h, n);
+    HalfSpace outer[POLYTOPE_MAX], further[POLYTOPE_MAX];
+    loosened(h, n, margin, outer);
+    loosened(h, n, 2 * margin, further);
+    Bounds all = bounds_empty(), outer_box = bounds_grown(box, margin), further_box = bounds_grown(box, 2 * margin);
+    for (int side = 0; side < 6; side++)
+        all = bounds_union(all, face(side_of(outer_box, side), further_box, further, n));
+    for (uint32_t i = 0; i < n; i++)
+        all = bounds_union(all, face(outer[i], further_box, further, n));
+    return all;
+}

@@ -315,6 +315,50 @@ static void planes_together_get_a_box_that_holds_all_hits(void **state)
     assert_in_range(boxed, 50, 250);
 }
 
+static uint32_t topmost(const World *w)
+{
+    uint32_t k = 1;
+    while (w->csg[k].parent != 0)
+        k++;
+    return ~k;
+}
+
+/* A random body and half spaces through its middle, which stand askew: the boxes hide no hit, and those of the planes are flat. */
+static void planes_that_cut_a_body_get_the_boxes_of_their_faces(void **state)
+{
+    (void)state;
+    int hits = 0, plane_hits = 0, flat = 0;
+    for (uint32_t seed = 1; seed <= 300; seed++) {
+        Arena a;
+        arena_init(&a);
+        Dice d = { seed };
+        const Object *part[6] = { seed % 3 == 0 ? random_body(&a, &d, 2, 1) : ball(&a, dice_point(&d, 0.3), 1) };
+        uint32_t n = 2 + seed % 5;
+        for (uint32_t i = 1; i < n; i++)
+            part[i] = half_space(&a, i % 3 == 0 ? vec3(0, 1, 0) : dice_direction(&d), dice_between(&d, -0.3, 0.5));
+        if (seed % 4 == 1)
+            part[0] = combined2(&a, OBJECT_UNION, ball(&a, vec3(1, 0, 0), 0.5),
+                                combined2(&a, OBJECT_INTERSECTION, half_space(&a, dice_direction(&d), 0.3), block(&a, vec3(-1, -1, -1), vec3(1, 1, 1))));
+        ObjectKind kind = seed % 2 ? OBJECT_DIFFERENCE : OBJECT_INTERSECTION;
+        Affine place = affine_then(affine_scale(vec3(1, 2, 0.5)), affine_rotate(dice_point(&d, 90)));
+        const Object *o = placed(&a, combined(&a, kind, n, part), place);
+        World *w = world_of(&a, 1, &o, "bvh");
+        for (uint32_t i = 0; i < w->n_prims; i++)
+            flat += w->prim[i].ops == &body_half && bounds_area(w->box[i]) < 0.7 * bounds_area(w->bounds);
+        for (int i = 0; i < 200; i++) {
+            Ray ray = random_ray(&d, 1);
+            Hit x, y;
+            bool hit = item_nearest(w, topmost(w), &ray, &x);
+            assert_int_equal(hit, world_nearest(w, &ray, 0, &y));
+            assert_true(!hit || (x.t == y.t && x.prim == y.prim && bounds_contain(w->box[x.prim], ray_at(&ray, x.t))));
+            hits += hit;
+            plane_hits += hit && w->prim[x.prim].ops == &body_half;
+        }
+        arena_free(&a);
+    }
+    assert_true(hits > 8000 && plane_hits > 4000 && flat > 400);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -327,6 +371,7 @@ int main(void)
         cmocka_unit_test(a_bound_that_lies_askew_is_dropped_if_it_holds_the_body),
         cmocka_unit_test(copies_of_a_shared_shape_share_its_data),
         cmocka_unit_test(planes_together_get_a_box_that_holds_all_hits),
+        cmocka_unit_test(planes_that_cut_a_body_get_the_boxes_of_their_faces),
         cmocka_unit_test(subtrahends_and_planes_get_the_box_of_the_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
