@@ -128,7 +128,7 @@ INLINE void run_noise(const Instr *i, const uint16_t *argument, double *r, const
     const double *x = r + argument[i->a] * width, *y = r + argument[i->a + 1] * width, *z = r + argument[i->a + 2] * width;
     double *d = r + i->dst * width;
     for (int l = 0; l < n; l++)
-        d[l] = noise_value(*(const int *)i->callee, vec3(x[l], y[l], z[l]));
+        d[l] = noise_value(*(const int *)i->callee, &(Vec3){ x[l], y[l], z[l] });
 }
 
 /* n <= width points; r has their parameters in the first registers. Returns the register row of the value. */

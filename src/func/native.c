@@ -21,7 +21,7 @@ static int terms_of(double number)
 
 static double signed_noise(int generator, Vec3 p)
 {
-    return 2 * noise_value(generator, p) - 1;
+    return 2 * noise_value(generator, &p) - 1;
 }
 
 static double hetero_mf(const double *a)
@@ -55,7 +55,8 @@ static double ridge(const double *a)
     for (int i = 0; i <= whole; i++) {
         double share = i < whole ? 1 : octaves - floor(octaves);
         if (share != 0) {
-            double t = fabs(noise_value(generator, scaled(p, scale)) - middle) / depth - offset;
+            Vec3 q = scaled(p, scale);
+            double t = fabs(noise_value(generator, &q) - middle) / depth - offset;
             sum += share * weight * t;
             weights += share * weight;
         }
@@ -100,7 +101,7 @@ static double polytubes(const double *a)
 
 static double noise_generator(const double *a)
 {
-    return noise_value(generator_of(a[3]), vec3(a[0], a[1], a[2]));
+    return noise_value(generator_of(a[3]), &(Vec3){ a[0], a[1], a[2] });
 }
 
 FuncNative *const native_hetero_mf = hetero_mf, *const native_ridge = ridge, *const native_ridged_mf = ridged_mf,

@@ -132,15 +132,15 @@ static void prepare(int generator)
         pthread_once(&made, make_generator3);
 }
 
-double noise_value(int generator, Vec3 p)
+double noise_value(int generator, const Vec3 *p)
 {
     prepare(generator);
-    return kernel->value(generator, &p);
+    return kernel->value(generator, p);
 }
 
-Vec3 noise_vector(Vec3 p)
+Vec3 noise_vector(const Vec3 *p)
 {
-    return kernel->vector(&p);
+    return kernel->vector(p);
 }
 
 void noise_octaves(int generator, Vec3 p, double first, double step, int n, double *out)

@@ -10,10 +10,10 @@
 #include "math/vec.h"
 
 /* In 0..1; generator 1 (also 0), 2 or 3. */
-double noise_value(int generator, Vec3 p);
+double noise_value(int generator, const Vec3 *p);
 
 /* D(p): components about -1..1, the same for all generators. */
-Vec3 noise_vector(Vec3 p);
+Vec3 noise_vector(const Vec3 *p);
 
 /* out[k] = noise at p * first * step^k, k < n (n <= 10). */
 void noise_octaves(int generator, Vec3 p, double first, double step, int n, double *out);

@@ -5,7 +5,8 @@
  * that a corner costs one load and three operations.
  *
  * The octaves of a turbulence do not depend on each other, but one octave alone fills the processor's window. So first all
- * points find their cells (Spot), then all sums are made: each of the two steps is short enough for several to overlap. */
+ * points find their cells (Spots), then all sums are made: each of the two steps is short enough for several to overlap. */
+#include <limits.h>
 #include <string.h>
 
 #include "base/cpu.h"
@@ -17,8 +18,14 @@
 
 enum { MAX_OCTAVES = 10 };
 
+/* Points that are far away and other rare ways; kept apart, so that their loads of pairs do not wait in front of the near way. */
+#define AWAY __attribute__((noinline, cold))
+
 typedef double Pair __attribute__((vector_size(16)));
 typedef double Quad __attribute__((vector_size(32)));
+#ifdef __AVX512F__
+typedef double Oct __attribute__((vector_size(64)));
+#endif
 typedef double QuadInMemory __attribute__((vector_size(32), aligned(8), may_alias));
 
 static inline Quad load(const double *from)
@@ -26,13 +33,13 @@ static inline Quad load(const double *from)
     return *(const QuadInMemory *)from;
 }
 
-/* ---- spots: where a point lies in the lattice ---- */
+/* ---- spots: where points lie in the lattice ---- */
 
-typedef struct Spot {
-    Quad low;                                  /* 1/2 and the way from the low corner: x, y, z */
-    double weight[8];                          /* of the corners */
-    int cell[4];                               /* -, x, y, z: 0..4095 */
-} Spot;
+typedef struct Spots {
+    Quad low[MAX_OCTAVES];                     /* 1/2 and the way from the low corner: x, y, z */
+    Quad weight[2][MAX_OCTAVES];               /* of the corners of the lower layer and of the upper: 00, 10, 01, 11 */
+    int cell[MAX_OCTAVES][4];                  /* -, x, y, z: 0..4095 */
+} __attribute__((aligned(64))) Spots;
 
 /* Beyond this no fraction is left in a double; the lattice index must fit an integer. */
 static const double FAR = 4e18;
@@ -47,16 +54,19 @@ static inline long long low_corner(double x)
     return (long long)(x - (x < 0 ? 1 - 1e-10 : 0));
 }
 
-static inline void spot_set(Spot *spot, Vec3 p)
+static inline void spot_set(Spots *spots, int k, Vec3 p)
 {
     long long mx = low_corner(p.x), my = low_corner(p.y), mz = low_corner(p.z);
     double x = p.x - (double)mx, y = p.y - (double)my, z = p.z - (double)mz;
     double sx = x * x * (3 - 2 * x), sy = y * y * (3 - 2 * y), sz = z * z * (3 - 2 * z);
     double tx = 1 - sx, ty = 1 - sy, tz = 1 - sz;
     double w00 = tx * ty, w10 = sx * ty, w01 = tx * sy, w11 = sx * sy;
-    *spot = (Spot){ .low = { 0.5, x, y, z },
-                    .weight = { w00 * tz, w10 * tz, w01 * tz, w11 * tz, w00 * sz, w10 * sz, w01 * sz, w11 * sz },
-                    .cell = { 0, (mx + 10000) & 4095, (my + 10000) & 4095, (mz + 10000) & 4095 } };
+    spots->low[k] = (Quad){ 0.5, x, y, z };
+    spots->weight[0][k] = (Quad){ w00 * tz, w10 * tz, w01 * tz, w11 * tz };
+    spots->weight[1][k] = (Quad){ w00 * sz, w10 * sz, w01 * sz, w11 * sz };
+    spots->cell[k][1] = (mx + 10000) & 4095;
+    spots->cell[k][2] = (my + 10000) & 4095;
+    spots->cell[k][3] = (mz + 10000) & 4095;
 }
 
 #ifdef __AVX2__
@@ -66,44 +76,71 @@ static inline Quad quad(double x)
     return (Quad){ x, x, x, x };
 }
 
-/* The same for p = (1/2, x, y, z). */
-static inline void spot_set_quad(Spot *spot, Quad p)
+/* The same for p = (1/2, x, y, z). Returns the corner: INT_MIN where it does not fit an integer. A zero may lose its sign, which shows nowhere. */
+static inline __m128i spot_set_quad(Spots *spots, int k, Quad p)
 {
-    typedef long long Lanes __attribute__((vector_size(32)));
-    Quad shifted = p - (Quad)((Lanes)quad(1 - 1e-10) & (Lanes)(p < 0));
-    __m128i corner = _mm256_cvttpd_epi32(shifted), cell = _mm_and_si128(_mm_add_epi32(corner, _mm_set1_epi32(10000)), _mm_set1_epi32(4095));
-    Quad low = p - _mm256_cvtepi32_pd(corner), s = low * low * (3 - 2 * low), t = 1 - s;
+    Quad shifted = _mm256_blendv_pd(p, p - quad(1 - 1e-10), p);
+    __m128i corner = _mm256_cvttpd_epi32(shifted);
+    Quad low = p - _mm256_round_pd(shifted, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC), s = low * low * (3 - 2 * low), t = 1 - s;
     Quad x = _mm256_permute4x64_pd(_mm256_unpackhi_pd(t, s), 0x44), y = _mm256_permute4x64_pd(_mm256_unpacklo_pd(t, s), 0xfa);
-    spot->low = low;
-    *(QuadInMemory *)spot->weight = x * y * _mm256_permute4x64_pd(t, 0xff);
-    *(QuadInMemory *)(spot->weight + 4) = x * y * _mm256_permute4x64_pd(s, 0xff);
-    _mm_storeu_si128((__m128i_u *)(void *)spot->cell, cell);
+    spots->low[k] = low;
+    spots->weight[0][k] = x * y * _mm256_permute4x64_pd(t, 0xff);
+    spots->weight[1][k] = x * y * _mm256_permute4x64_pd(s, 0xff);
+    *(__m128i *)spots->cell[k] = _mm_and_si128(_mm_add_epi32(corner, _mm_set1_epi32(10000)), _mm_set1_epi32(4095));
+    return corner;
 }
 
-/* Of p * first * step^k; false if one of them is too far for this. */
-static inline bool spots_set(Spot *spot, Vec3 p, double first, double step, int n)
+#ifdef __AVX512F__
+
+/* Two octaves. */
+static inline __m256i spot_set_oct(Spots *spots, int k, Oct p)
 {
-    const double near = 2e9;                   /* cells are numbered in 32 bits */
+    Oct shifted = _mm512_mask_sub_pd(p, _mm512_movepi64_mask((__m512i)p), p, _mm512_set1_pd(1 - 1e-10));
+    __m256i corner = _mm512_cvttpd_epi32(shifted);
+    Oct low = p - _mm512_roundscale_pd(shifted, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC), s = low * low * (3 - 2 * low), t = 1 - s;
+    Oct x = _mm512_permutex_pd(_mm512_unpackhi_pd(t, s), 0x44), y = _mm512_permutex_pd(_mm512_unpacklo_pd(t, s), 0xfa);
+    *(Oct *)&spots->low[k] = low;
+    *(Oct *)&spots->weight[0][k] = x * y * _mm512_permutex_pd(t, 0xff);
+    *(Oct *)&spots->weight[1][k] = x * y * _mm512_permutex_pd(s, 0xff);
+    *(__m256i *)spots->cell[k] = _mm256_and_si256(_mm256_add_epi32(corner, _mm256_set1_epi32(10000)), _mm256_set1_epi32(4095));
+    return corner;
+}
+
+#endif
+
+/* Of p * first * step^k; false if one of them is too far for this. */
+static inline bool spots_set(Spots *spots, const Vec3 *p, double first, double step, int n)
+{
     /* Blended, as one load of y and z together would have to wait for two stores. */
-    Quad from = _mm256_blend_pd(_mm256_blend_pd(quad(0.5), quad(p.x), 2), _mm256_blend_pd(quad(p.y), quad(p.z), 8), 12);
-    Quad scale = { 1, first, first, first }, by = { 1, step, step, step }, last = scale;
-    for (int k = 0; k < n; k++, scale *= by) {
-        spot_set_quad(&spot[k], from * scale);
-        last = scale;
+    Quad from = _mm256_blend_pd(_mm256_blend_pd(quad(0.5), quad(p->x), 2), _mm256_blend_pd(quad(p->y), quad(p->z), 8), 12);
+    Quad scale = { 1, first, first, first }, by = { 1, step, step, step };
+    __m128i least = _mm_setzero_si128();
+    int k = 0;
+#ifdef __AVX512F__
+    if (n >= 2) {
+        Oct from2 = _mm512_broadcast_f64x4(from), by2 = _mm512_broadcast_f64x4(by);
+        Oct scale2 = _mm512_insertf64x4(_mm512_castpd256_pd512(scale), scale * by, 1);
+        __m256i least2 = _mm256_setzero_si256();
+        for (; k + 2 <= n; k += 2, scale2 = scale2 * by2 * by2)
+            least2 = _mm256_min_epi32(least2, spot_set_oct(spots, k, from2 * scale2));
+        least = _mm_min_epi32(_mm256_castsi256_si128(least2), _mm256_extracti128_si256(least2, 1));
+        scale = _mm512_castpd512_pd256(scale2);
     }
-    Quad farthest = from * quad(fabs(first) > fabs(last[1]) ? first : last[1]);
-    return _mm256_movemask_pd((Quad)((farthest < near) & (farthest > -near))) == 15;
+#endif
+    for (; k < n; k++, scale *= by)
+        least = _mm_min_epi32(least, spot_set_quad(spots, k, from * scale));
+    return _mm_movemask_epi8(_mm_cmpeq_epi32(least, _mm_set1_epi32(INT_MIN))) == 0;
 }
 
 #else
 
-static inline bool spots_set(Spot *spot, Vec3 p, double first, double step, int n)
+static inline bool spots_set(Spots *spots, const Vec3 *p, double first, double step, int n)
 {
     for (int k = 0; k < n; k++, first *= step) {
-        Vec3 q = scaled(p, first);
+        Vec3 q = scaled(*p, first);
         if (is_far(q))
             return false;
-        spot_set(&spot[k], q);
+        spot_set(spots, k, q);
     }
     return true;
 }
@@ -112,29 +149,30 @@ static inline bool spots_set(Spot *spot, Vec3 p, double first, double step, int 
 
 /* ---- sums over the corners ---- */
 
-/* Does `each` with the corner's numbers in R (`table`) and w (1/2, dx, dy, dz) (`factors`). Points with a whole z, most often 0 as
+/* Does `each` with the corner's numbers in R (`table`) and w (1/2, dx, dy, dz) (`factors`); `first` at the first, where sums begin. That
+ * they do not begin with 0 shows nowhere, as the lane of 1/2 never sums to -0. Points with a whole z, most often 0 as
  * in the images that functions make, have no part in the upper layer: its weights are 0. */
-#define FOR_CORNERS(spot, each)                                                                                        \
+#define FOR_CORNERS(spots, k, first, each)                                                                             \
     const uint16_t *h = noise_tables.hash;                                                                             \
     const uint8_t *last = noise_tables.corner;                                                                         \
-    unsigned ix = (unsigned)(spot)->cell[1], iy = (unsigned)(spot)->cell[2], iz = (unsigned)(spot)->cell[3];           \
+    unsigned ix = (unsigned)(spots)->cell[k][1], iy = (unsigned)(spots)->cell[k][2], iz = (unsigned)(spots)->cell[k][3]; \
     unsigned h0 = h[ix], h1 = h[ix + 1];                                                                               \
     unsigned h00 = h[h0 ^ iy], h10 = h[h1 ^ iy], h01 = h[h0 ^ (iy + 1)], h11 = h[h1 ^ (iy + 1)];                       \
-    CORNER(spot, h00 ^ iz, 0, 0, 0, each)                                                                              \
-    CORNER(spot, h10 ^ iz, 1, 0, 0, each)                                                                              \
-    CORNER(spot, h01 ^ iz, 0, 1, 0, each)                                                                              \
-    CORNER(spot, h11 ^ iz, 1, 1, 0, each)                                                                              \
-    if ((spot)->low[3] != 0) {                                                                                         \
-        CORNER(spot, h00 ^ (iz + 1), 0, 0, 1, each)                                                                    \
-        CORNER(spot, h10 ^ (iz + 1), 1, 0, 1, each)                                                                    \
-        CORNER(spot, h01 ^ (iz + 1), 0, 1, 1, each)                                                                    \
-        CORNER(spot, h11 ^ (iz + 1), 1, 1, 1, each)                                                                    \
+    CORNER(spots, k, h00 ^ iz, 0, 0, 0, first)                                                                         \
+    CORNER(spots, k, h10 ^ iz, 1, 0, 0, each)                                                                          \
+    CORNER(spots, k, h01 ^ iz, 0, 1, 0, each)                                                                          \
+    CORNER(spots, k, h11 ^ iz, 1, 1, 0, each)                                                                          \
+    if ((spots)->low[k][3] != 0) {                                                                                     \
+        CORNER(spots, k, h00 ^ (iz + 1), 0, 0, 1, each)                                                                \
+        CORNER(spots, k, h10 ^ (iz + 1), 1, 0, 1, each)                                                                \
+        CORNER(spots, k, h01 ^ (iz + 1), 0, 1, 1, each)                                                                \
+        CORNER(spots, k, h11 ^ (iz + 1), 1, 1, 1, each)                                                                \
     }
 
-#define CORNER(spot, hash, x, y, z, each)                                                                              \
+#define CORNER(spots, k, hash, x, y, z, each)                                                                          \
     {                                                                                                                  \
         const double *table = noise_gradients + last[hash];                                                            \
-        Quad factors = ((spot)->low - (Quad){ 0, x, y, z }) * (spot)->weight[(x) + 2 * (y) + 4 * (z)];                 \
+        Quad factors = ((spots)->low[k] - (Quad){ 0, x, y, z }) * (spots)->weight[z][k][(x) + 2 * (y)];                \
         each                                                                                                           \
     }
 
@@ -144,34 +182,36 @@ static inline Pair halves(Quad v)
     return (Pair){ v[0], v[1] } + (Pair){ v[2], v[3] };
 }
 
-static inline Pair spot_noise(const Spot *spot)
+static inline Pair spot_noise(const Spots *spots, int k)
 {
-    Quad sum = { 0 };
-    FOR_CORNERS(spot, sum += factors * load(table);)
+    Quad sum;
+    FOR_CORNERS(spots, k, sum = factors * load(table);, sum += factors * load(table);)
     return halves(sum);
 }
 
-typedef struct PairAndOne { Pair xy; double z; } PairAndOne;
-
-static inline PairAndOne vector_of(Quad dx, Quad dy, Quad dz)
+/* The fourth lane means nothing. */
+static inline Quad vector_of(Quad dx, Quad dy, Quad dz)
 {
-    Pair x = halves(dx), y = halves(dy), z = halves(dz);
-    return (PairAndOne){ (Pair){ x[0], y[0] } + (Pair){ x[1], y[1] }, z[0] + z[1] };
+    Pair y = halves(dy);
+    Quad xz = __builtin_shufflevector(dx, dz, 0, 1, 4, 5) + __builtin_shufflevector(dx, dz, 2, 3, 6, 7), yy = { y[0], y[1], 0, 0 };
+    return __builtin_shufflevector(xz, yy, 0, 4, 2, 6) + __builtin_shufflevector(xz, yy, 1, 5, 3, 7);
 }
 
 /* Stored as it will be loaded: in two parts. */
-static inline Vec3 vector_stored(PairAndOne v)
+static inline Vec3 vector_stored(Quad v)
 {
     Vec3 out;
-    memcpy(&out, &v.xy, sizeof v.xy);
-    out.z = v.z;
+    Pair xy = { v[0], v[1] };
+    memcpy(&out, &xy, sizeof xy);
+    out.z = v[2];
     return out;
 }
 
-static inline PairAndOne spot_vector(const Spot *spot)
+static inline Quad spot_vector(const Spots *spots, int k)
 {
-    Quad dx = { 0 }, dy = { 0 }, dz = { 0 };
-    FOR_CORNERS(spot, dx += factors * load(table); dy += factors * load(table + 4); dz += factors * load(table + 8);)
+    Quad dx, dy, dz;
+    FOR_CORNERS(spots, k, dx = factors * load(table); dy = factors * load(table + 4); dz = factors * load(table + 8);
+                , dx += factors * load(table); dy += factors * load(table + 4); dz += factors * load(table + 8);)
     return vector_of(dx, dy, dz);
 }
 
@@ -250,44 +290,53 @@ static inline Pair values_of(int generator, Pair a, Pair b)
 }
 
 /* False: too far for any noise. */
-static inline bool spot_of(Spot *spot, Vec3 p)
+AWAY static bool spot_of_far(Spots *spot, const Vec3 *p)
 {
-    if (spots_set(spot, p, 1, 1, 1))
-        return true;
-    if (is_far(p))
+    if (is_far(*p))
         return false;
-    spot_set(spot, p);
+    spot_set(spot, 0, *p);
     return true;
 }
 
-static inline double value_at(int generator, Vec3 p)
+static inline bool spot_of(Spots *spot, const Vec3 *p)
 {
-    Spot spot;
-    if (generator == 3)
-        return is_far(p) ? 0.5 : clamp(0.5 * (1.59 * raw3(p) + 0.985));
-    return spot_of(&spot, p) ? value_of(generator, spot_noise(&spot)) : 0.5;
+    return spots_set(spot, p, 1, 1, 1) || spot_of_far(spot, p);
+}
+
+AWAY static double value3(const Vec3 *p)
+{
+    return is_far(*p) ? 0.5 : clamp(0.5 * (1.59 * raw3(*p) + 0.985));
 }
 
 static double value(int generator, const Vec3 *p)
 {
-    return value_at(generator, *p);
+    Spots spot;
+    if (generator == 3)
+        return value3(p);
+    return spot_of(&spot, p) ? value_of(generator, spot_noise(&spot, 0)) : 0.5;
+}
+
+AWAY static void octaves_one_by_one(int generator, const Vec3 *p, double first, double step, int n, double *out)
+{
+    for (int k = 0; k < n; k++, first *= step) {
+        Vec3 q = scaled(*p, first);
+        out[k] = value(generator, &q);
+    }
 }
 
 static inline void octaves(int generator, const Vec3 *p, double first, double step, int n, double *out)
 {
-    Spot spot[MAX_OCTAVES];
+    Spots spots;
     Pair sum[MAX_OCTAVES];
-    if (generator == 3 || !spots_set(spot, *p, first, step, n)) {
-        for (int k = 0; k < n; k++, first *= step)
-            out[k] = value_at(generator, scaled(*p, first));
+    if (generator == 3 || !spots_set(&spots, p, first, step, n)) {
+        octaves_one_by_one(generator, p, first, step, n, out);
         return;
     }
     for (int k = 0; k < n; k++)
-        sum[k] = spot_noise(&spot[k]);
+        sum[k] = spot_noise(&spots, k);
     for (int k = 0; k + 2 <= n; k += 2) {
         Pair v = values_of(generator, sum[k], sum[k + 1]);
-        out[k] = v[0];
-        out[k + 1] = v[1];
+        memcpy(&out[k], &v, sizeof v);         /* in one piece, as ridges load it */
     }
     if (n % 2 != 0)
         out[n - 1] = value_of(generator, sum[n - 1]);
@@ -325,62 +374,79 @@ static double turbulence(int generator, const Vec3 *p, int n, double omega, doub
     return sum;
 }
 
-static inline PairAndOne vector_at(Vec3 p)
+static inline Quad vector_at(const Vec3 *p)
 {
-    Spot spot;
-    return spot_of(&spot, p) ? spot_vector(&spot) : (PairAndOne){ { 0 }, 0 };
+    Spots spot;
+    return spot_of(&spot, p) ? spot_vector(&spot, 0) : (Quad){ 0 };
 }
 
 static Vec3 vector(const Vec3 *p)
 {
-    return vector_stored(vector_at(*p));
+    return vector_stored(vector_at(p));
+}
+
+AWAY static void vectors_one_by_one(const Vec3 *p, double first, double step, int n, Vec3 *out)
+{
+    for (int k = 0; k < n; k++, first *= step) {
+        Vec3 q = scaled(*p, first);
+        out[k] = vector(&q);
+    }
 }
 
 static void vector_octaves(const Vec3 *p, double first, double step, int n, Vec3 *out)
 {
-    Spot spot[MAX_OCTAVES];
-    if (spots_set(spot, *p, first, step, n))
+    Spots spots;
+    if (spots_set(&spots, p, first, step, n))
         for (int k = 0; k < n; k++)
-            out[k] = vector_stored(spot_vector(&spot[k]));
+            out[k] = vector_stored(spot_vector(&spots, k));
     else
-        for (int k = 0; k < n; k++, first *= step)
-            out[k] = vector_stored(vector_at(scaled(*p, first)));
+        vectors_one_by_one(p, first, step, n, out);
+}
+
+AWAY static Vec3 far_turbulence(const Vec3 *p, int n, double omega, double lambda)
+{
+    Vec3 v[MAX_OCTAVES], sum;
+    double weight = omega;
+    vectors_one_by_one(p, 1, lambda, n, v);
+    sum = v[0];
+    for (int k = 1; k < n; k++, weight *= omega)
+        sum = add(sum, scaled(v[k], weight));
+    return sum;
 }
 
 static Vec3 vector_turbulence(const Vec3 *p, int n, double omega, double lambda)
 {
-    Spot spot[MAX_OCTAVES];
-    double weight = omega, scale = lambda;
-    bool near = spots_set(spot, *p, 1, lambda, n);
-    PairAndOne sum = near ? spot_vector(&spot[0]) : vector_at(*p);
-    for (int k = 1; k < n; k++, weight *= omega, scale *= lambda) {
-        PairAndOne v = near ? spot_vector(&spot[k]) : vector_at(scaled(*p, scale));
-        sum.xy += v.xy * weight;
-        sum.z += v.z * weight;
-    }
+    Spots spots;
+    if (!spots_set(&spots, p, 1, lambda, n))
+        return far_turbulence(p, n, omega, lambda);
+    Quad sum = spot_vector(&spots, 0);
+    double weight = omega;
+    for (int k = 1; k < n; k++, weight *= omega)
+        sum += spot_vector(&spots, k) * weight;
     return vector_stored(sum);
 }
 
 /* x and y of a vector: two thirds of the work. */
-static inline Pair spot_pair(const Spot *spot)
+static inline Pair spot_pair(const Spots *spots, int k)
 {
-    Quad dx = { 0 }, dy = { 0 };
-    FOR_CORNERS(spot, dx += factors * load(table); dy += factors * load(table + 4);)
+    Quad dx, dy;
+    FOR_CORNERS(spots, k, dx = factors * load(table); dy = factors * load(table + 4);
+                , dx += factors * load(table); dy += factors * load(table + 4);)
     Pair x = halves(dx), y = halves(dy);
     return (Pair){ x[0], y[0] } + (Pair){ x[1], y[1] };
 }
 
 static Vec2 pair_turbulence(const Vec3 *p, int n, double omega, double lambda)
 {
-    Spot spot[MAX_OCTAVES];
-    if (!spots_set(spot, *p, 1, lambda, n)) {
-        Vec3 v = vector_turbulence(p, n, omega, lambda);
+    Spots spots;
+    if (!spots_set(&spots, p, 1, lambda, n)) {
+        Vec3 v = far_turbulence(p, n, omega, lambda);
         return (Vec2){ v.x, v.y };
     }
-    Pair sum = spot_pair(&spot[0]);
+    Pair sum = spot_pair(&spots, 0);
     double weight = omega;
     for (int k = 1; k < n; k++, weight *= omega)
-        sum += spot_pair(&spot[k]) * weight;
+        sum += spot_pair(&spots, k) * weight;
     return (Vec2){ sum[0], sum[1] };
 }
 

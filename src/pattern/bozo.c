@@ -11,13 +11,13 @@ static const MapEntry bozo_map[] = {
 static double noise(const void *params, const PatternPoint *at)
 {
     (void)params;
-    return noise_value(at->pattern->noise_generator, at->p);
+    return noise_value(at->pattern->noise_generator, &at->p);
 }
 
 static Vec3 bumps(const void *params, const PatternPoint *at, Vec3 normal, double amount)
 {
     (void)params;
-    return add(normal, scaled(noise_vector(at->p), amount));
+    return add(normal, scaled(noise_vector(&at->p), amount));
 }
 
 static double cube(const void *params, const PatternPoint *at)
@@ -28,7 +28,7 @@ static double cube(const void *params, const PatternPoint *at)
 
 static Vec3 dents(const void *params, const PatternPoint *at, Vec3 normal, double amount)
 {
-    return add(normal, scaled(noise_vector(at->p), amount * cube(params, at)));
+    return add(normal, scaled(noise_vector(&at->p), amount * cube(params, at)));
 }
 
 const PatternOps pattern_bozo = { .keyword = "bozo", MAP_OF(bozo_map), .value = noise };

@@ -203,7 +203,7 @@ static double of_all(const Crackle *c, const PatternPoint *at)
 {
     Near near = nearest(at->p, c->metric, c->form.z != 0 ? 2 : 1);
     if (c->solid)
-        return noise_value(at->pattern->noise_generator, near.nearest);
+        return noise_value(at->pattern->noise_generator, &near.nearest);
     double extra = 0, v = 0;
     if (c->offset != 0)
         extra = c->metric == 2 ? c->offset * c->offset : c->metric == 1 ? c->offset : pow(c->offset, c->metric);

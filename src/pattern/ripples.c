@@ -14,7 +14,7 @@ typedef struct { Source source[KEPT]; unsigned state; } Ripples;
 static Source next_source(int i, unsigned *state)
 {
     double frequency = 0.000030518509476 * noise_sample(state) + 0.01;
-    return (Source){ normalized(noise_vector(vec3(i, 0, 0))), frequency };
+    return (Source){ normalized(noise_vector(&(Vec3){ i, 0, 0 })), frequency };
 }
 
 static void parse(Parser *p, void *params)

@@ -107,7 +107,7 @@ static Vec3 by_facets(const Normal *normal, Vec3 q, Vec3 n)
     Vec3 point = facet_point(u, normal->facets_metric);
     if (c == 0)
         return point;
-    Vec3 d = noise_vector(point);
+    Vec3 d = noise_vector(&point);
     return add(n, scaled(sub(d, scaled(n, dot(d, n))), c));
 }
 

@@ -16,7 +16,7 @@ static const NoiseKernel *const kernels[] = CPU_TABLE(noise_kernel);
 static int make_tables(void **state)
 {
     (void)state;
-    noise_value(3, vec3(0, 0, 0));
+    noise_value(3, &(Vec3){ 0, 0, 0 });
     return 0;
 }
 
@@ -41,7 +41,7 @@ static void every_measured_noise_is_met(void **state)
     csv_open(&c, "tests/vectors/noise.csv");
     while (csv_next(&c)) {
         Vec3 p = vec3(csv_number(&c, 1), csv_number(&c, 2), csv_number(&c, 3));
-        double got = noise_value((int)csv_number(&c, 0), p), want = csv_number(&c, 4);
+        double got = noise_value((int)csv_number(&c, 0), &p), want = csv_number(&c, 4);
         if (fabs(got - want) > 2e-12)
             fail_msg("line %d: %.13f, not %.13f", c.line, got, want);
     }
@@ -59,7 +59,7 @@ static void every_measured_vector_noise_and_turbulence_is_met(void **state)
         Vec3 want = vec3(csv_number(&c, 6), csv_number(&c, 7), csv_number(&c, 8));
         if (max_abs(sub(got, want)) > 4e-12)
             fail_msg("line %d: %.13f %.13f %.13f", c.line, got.x, got.y, got.z);
-        Vec3 once = noise_vector(p);
+        Vec3 once = noise_vector(&p);
         if (octaves == 1)
             assert_memory_equal(&got, &once, sizeof got);
     }
@@ -149,11 +149,11 @@ static void noise_is_continuous_and_within_its_range(void **state)
             p.x = floor(p.x);
         Vec3 q = add(p, vec3(1e-9, -1e-9, 1e-9));
         for (int g = 1; g <= 3; g++) {
-            double a = noise_value(g, p), b = noise_value(g, q);
+            double a = noise_value(g, &p), b = noise_value(g, &q);
             assert_true(a >= 0 && a <= 1);
             assert_true(fabs(a - b) < 1e-7);
         }
-        assert_true(max_abs(sub(noise_vector(p), noise_vector(q))) < 1e-7);
+        assert_true(max_abs(sub(noise_vector(&p), noise_vector(&q))) < 1e-7);
     }
 }
 
@@ -163,7 +163,7 @@ static void points_without_a_place_in_the_lattice_are_harmless(void **state)
     const double odd[] = { NAN, INFINITY, -INFINITY, 1e300, -1e19, 1e17 };
     for (int i = 0; i < 6; i++)
         for (int g = 1; g <= 3; g++) {
-            double v = noise_value(g, vec3(odd[i], 0.5, 0.5));
+            double v = noise_value(g, &(Vec3){ odd[i], 0.5, 0.5 });
             assert_true(v >= 0 && v <= 1);
         }
 }
