@@ -190,7 +190,7 @@ Colour trace_path(Tracer *t, const Path *path);
 
 /* shade.c */
 void coat_prepare(Coat *coat, const Tracing *tracing, const Texture *texture);
-Colour shade_hit(Tracer *t, const Path *path, const Hit *hit, int level);
+Colour shade_hit(Tracer *t, const Path *path, const Hit *hit);
 
 /* secondary.c: rays that leave a surface. */
 /* Would a ray of this weight be black at once? */

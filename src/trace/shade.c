@@ -392,7 +392,34 @@ static void shade_share(Shade *s, uint32_t texture, float weight)
     s->sum = colour_add(before, weight == 1 ? s->sum : colour_scaled(s->sum, weight));
 }
 
-Colour shade_hit(Tracer *t, const Path *path, const Hit *hit, int level)
+/* The way of all hits that no matte coat makes short, `s` begun. Kept apart: the short way need not save what this needs. */
+static __attribute__((noinline)) void shade_textures(Shade *s, const Hit *hit, uint32_t texture)
+{
+    const Path *path = s->path;
+    const Surface *surface = s->surface;
+    s->lamps = path->ticket->lamps;
+    s->interior = s->material->interior;
+    s->depth = hit->t;
+    s->level = path->level + (path->straight ? 0 : 1);
+    s->at.hit = false;
+    s->known = 0;
+    s->sum = (Colour){ 0, 0, 0, 0, 0 };
+    s->t->nesting++;
+    if (surface->n_textures == 0)
+        shade_texture(s, texture);
+    for (uint32_t i = 0; i < surface->n_textures; i++)
+        shade_share(s, surface->texture[i].texture != 0 ? surface->texture[i].texture : texture, surface->texture[i].weight);
+    s->t->nesting--;
+}
+
+/* What is seen of a hit, and how far it is. */
+static inline Colour shaded(Tracer *t, const Path *path, const Material *m, double depth, Colour c)
+{
+    t->depth = depth;
+    return t->tracing->has_media ? media_bodies(t, path, m, depth, c) : c;
+}
+
+Colour shade_hit(Tracer *t, const Path *path, const Hit *hit)
 {
     const World *w = t->world;
     const Tracing *tracing = t->tracing;
@@ -410,20 +437,8 @@ Colour shade_hit(Tracer *t, const Path *path, const Hit *hit, int level)
     s.spot = (Spot){ t, surface.p, &surface, path->in };
     const Coat *coat = &tracing->coat[texture];
     Rgb light;
-    if (coat->matte && surface.n_textures == 0 && shade_matte(&s, coat, texture, &light)) {
-        Colour c = colour_of(light, 0, 0);
-        return tracing->has_media ? media_bodies(t, path, m, hit->t, c) : c;
-    }
-    s.lamps = path->ticket->lamps;
-    s.interior = m->interior;
-    s.depth = hit->t;
-    s.level = level;
-    s.at.hit = false;
-    s.known = 0;
-    s.sum = (Colour){ 0, 0, 0, 0, 0 };
-    if (surface.n_textures == 0)
-        shade_texture(&s, texture);
-    for (uint32_t i = 0; i < surface.n_textures; i++)
-        shade_share(&s, surface.texture[i].texture != 0 ? surface.texture[i].texture : texture, surface.texture[i].weight);
-    return tracing->has_media ? media_bodies(t, path, m, hit->t, s.sum) : s.sum;
+    if (coat->matte && surface.n_textures == 0 && shade_matte(&s, coat, texture, &light))
+        return shaded(t, path, m, hit->t, colour_of(light, 0, 0));
+    shade_textures(&s, hit, texture);
+    return shaded(t, path, m, hit->t, s.sum);
 }

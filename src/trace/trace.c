@@ -26,27 +26,29 @@ static bool worth_following(const Tracer *t, const Path *path)
     return path->level < path->ticket->max_level && !(path->weight < path->ticket->adc_bailout) && t->nesting < NESTING_MAX;
 }
 
-Colour trace_path(Tracer *t, const Path *path)
+/* What the path meets, the air before it left aside. */
+static inline Colour meet(Tracer *t, const Path *path)
 {
     const Tracing *tracing = t->tracing;
-    t->depth = FAR_AWAY;
-    Colour c = BLACK;
-    if (!worth_following(t, path))
-        return c;
     Hit hit;
-    double depth = FAR_AWAY;
-    if (world_nearest(t->world, &path->ray, path->skip, &hit)) {
-        t->nesting++;
-        c = shade_hit(t, path, &hit, path->level + (path->straight ? 0 : 1));
-        t->nesting--;
-        depth = hit.t;
-    } else {
-        c = tracing->plain_sky ? tracing->sky[path->alpha] : sky_colour(tracing, path->ray.d, path->alpha);
-    }
-    t->depth = depth;
-    if (tracing->has_air)
-        c = through_air(t, path, depth, c);
-    return c;
+    if (world_nearest(t->world, &path->ray, path->skip, &hit))
+        return shade_hit(t, path, &hit);
+    t->depth = FAR_AWAY;
+    return tracing->plain_sky ? tracing->sky[path->alpha] : sky_colour(tracing, path->ray.d, path->alpha);
+}
+
+static __attribute__((noinline)) Colour meet_in_air(Tracer *t, const Path *path)
+{
+    Colour c = meet(t, path);
+    return through_air(t, path, t->depth, c);
+}
+
+Colour trace_path(Tracer *t, const Path *path)
+{
+    if (worth_following(t, path))
+        return t->tracing->has_air ? meet_in_air(t, path) : meet(t, path);
+    t->depth = FAR_AWAY;
+    return BLACK;
 }
 
 void tracer_interiors(const Tracer *t, Vec3 p, Interiors *out)

@@ -267,11 +267,12 @@ static bool test_item(void *user, uint32_t i, double *t_max)
     return search->stop;
 }
 
-static __attribute__((noinline)) void unbounded_prims(Search *search)
+static __attribute__((noinline)) void unbounded_prims(Search *search)     /* some */
 {
-    const World *w = search->world;
-    for (uint32_t i = 0; i < w->n_unbounded && !search->stop; i++)
-        prim_test(search, w->unbounded[i]);
+    const uint32_t *index = search->world->unbounded, *end = index + search->world->n_unbounded;
+    do
+        prim_test(search, *index);
+    while (++index < end && !search->stop);
 }
 
 static inline void all_prims(Search *search)
@@ -454,35 +455,25 @@ static inline void turn_to_ray(Surface *s, Vec3 n, Vec3 d)
 
 #define ALONE __attribute__((noinline))
 
-static inline void surface_start(Surface *s, const ShapeOps *ops, bool want_uv)
+ALONE static void carry_face(const Affine *place, const Ray *ray, double t, Surface *s)
 {
-    s->uv = (Vec2){ 0, 0 };
-    s->want_uv = want_uv && (ops->flags & SHAPE_HAS_UV);
-    s->n_textures = 0;
-}
-
-static inline void surface_end(Surface *s, const World *w, bool want_uv)
-{
-    if (want_uv && !s->want_uv)
-        s->uv = (Vec2){ s->p.x / w->unit, s->p.y / w->unit };
-    s->want_uv = want_uv;
+    Vec3 n, g;
+    carry_normals(place, false, error_at(ray->o, ray->d, t), ray, s, &n, &g);
+    s->normal = n;
 }
 
 /* The normal of a face is mostly of length 1 and stays as it is: no need to wait for roots and quotients that are 1. */
-ALONE static void face_surface(const World *w, const Prim *prim, const Ray *ray, const Hit *hit, bool want_uv, Surface *out)
+ALONE static void face_surface(const Prim *prim, const Ray *ray, const Hit *hit, Surface *out)
 {
-    surface_start(out, prim->ops, want_uv);
     out->error = error_at(ray->o, ray->d, hit->t);
     out->p = ray_at(ray, hit->t);
     prim->ops->surface(prim->data, hit, out);
-    Vec3 n = out->normal, g;
-    if (length2(n) != 1)
-        carry_normals(prim->place, false, error_at(ray->o, ray->d, hit->t), ray, out, &n, &g);
-    turn_to_ray(out, n, ray->d);
-    surface_end(out, w, want_uv);
+    if (length2(out->normal) != 1)
+        carry_face(prim->place, ray, hit->t, out);
+    turn_to_ray(out, out->normal, ray->d);
 }
 
-ALONE static void placed_surface(const World *w, const Prim *prim, const Ray *ray, const Hit *hit, bool want_uv, Surface *out)
+ALONE static void placed_surface(const World *w, const Prim *prim, const Ray *ray, const Hit *hit, Surface *out)
 {
     const ShapeOps *ops = prim->ops;
     const Affine *place = prim->place;
@@ -495,7 +486,6 @@ ALONE static void placed_surface(const World *w, const Prim *prim, const Ray *ra
         local = add(o, scaled(d, hit->t));
     }
     out->p = local;
-    surface_start(out, ops, want_uv);
     bool smooth = (ops->flags & SHAPE_SMOOTH) != 0;
     if (smooth)
         out->geometric = vec3(0, 0, 0);
@@ -512,17 +502,29 @@ ALONE static void placed_surface(const World *w, const Prim *prim, const Ray *ra
         out->geometric = dot(g, ray->d) > 0 ? negated(g) : g;
     if (w->material[prim->material].flags & MATERIAL_CUTAWAY)
         cutaway_surface(w, prim, out);
-    surface_end(out, w, want_uv);
+}
+
+ALONE static void flat_uv_surface(const World *w, const Ray *ray, const Hit *hit, Surface *out)
+{
+    world_surface(w, ray, hit, false, out);
+    out->uv = (Vec2){ out->p.x / w->unit, out->p.y / w->unit };
 }
 
 /* Each way by itself, so that the short one need not save what the long one needs. */
 void world_surface(const World *w, const Ray *ray, const Hit *hit, bool want_uv, Surface *out)
 {
     const Prim *prim = &w->prim[hit->prim];
+    if (want_uv && !(prim->ops->flags & SHAPE_HAS_UV)) {
+        flat_uv_surface(w, ray, hit, out);
+        return;
+    }
+    out->uv = (Vec2){ 0, 0 };
+    out->want_uv = want_uv;
+    out->n_textures = 0;
     if (prim->flags & PRIM_FACE)
-        face_surface(w, prim, ray, hit, want_uv, out);
+        face_surface(prim, ray, hit, out);
     else
-        placed_surface(w, prim, ray, hit, want_uv, out);
+        placed_surface(w, prim, ray, hit, out);
 }
 
 /* ---- bodies around a point ---- */
