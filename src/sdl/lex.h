@@ -25,19 +25,23 @@ static inline bool is_word_at(const char *s)
 /* Behind blanks and line ends, which are counted; a comment stops it. */
 const char *lex_blanks(Lexer *l, const char *s);
 
+/* Mostly there is none or one. By branches, which can be foreseen as files are regular: a place that is computed from what
+ * stands there makes every character wait for the one before. */
 static inline const char *lex_blank(Lexer *l, const char *s)
 {
-    s += *s == ' ';                            /* mostly there is none or one */
-    return (unsigned char)*s > ' ' ? s : lex_blanks(l, s);
+    if ((unsigned char)*s > ' ')
+        return s;
+    return *s == ' ' && (unsigned char)s[1] > ' ' ? s + 1 : lex_blanks(l, s);
 }
 
 /* This mark; blanks before it go in any case. */
 static inline bool lex_mark(Lexer *l, char c)
 {
-    const char *s = lex_blank(l, l->at);
-    bool taken = *s == c;
-    l->at = s + taken;
-    return taken;
+    l->at = lex_blank(l, l->at);
+    if (*l->at != c)
+        return false;
+    l->at++;
+    return true;
 }
 
 #endif

@@ -22,14 +22,17 @@ static inline bool keep(Lexer *lexer, Lexer *l, const char *s)
 /* A number with a sign or none, and the blanks around it. */
 static inline const char *number(Lexer *l, const char *s, double *out)
 {
-    static const double sign[] = { 1, -1 };    /* signs are hard to foresee: no branch */
     s = lex_blank(l, s);
-    bool negative = *s == '-';
-    s += negative;
+    bool negative = false;
+    if (*s == '-') {
+        negative = true;
+        s++;
+    }
     if (!is_digit(*s) && !(*s == '.' && is_digit(s[1])))
         return NULL;
     s = number_scan(s, l->end, out);
-    *out *= sign[negative];
+    if (negative)
+        *out = -*out;
     return lex_blank(l, s);
 }
 
