@@ -404,35 +404,66 @@ static void gather(const Compile *c, const CsgNode *node, const CsgNode *outer, 
     }
 }
 
+/* How much wider than a body the box is in which it is asked: more than any `inside` takes for the surface. */
+static const double ROOM = 0x1p-16;
+
+static Bounds roomy(Bounds b)
+{
+    return bounds_is_finite(b) ? bounds_grown(b, ROOM * fmax(max_abs(b.lo), max_abs(b.hi))) : bounds_everything();
+}
+
+static CsgPart part_of(const Compile *c, const CsgNode *parent, uint32_t item)
+{
+    bool wanted = parent->op == CSG_ANY;
+    Reach r = item_reach(c, item);
+    CsgPart part = { .box = roomy(r.box), .item = item, .far_answer = r.co == wanted, .near_answer = wanted };
+    if (is_node(item))
+        return part;
+    const Prim *prim = &c->prim.data[item];
+    part.inside = prim->ops->inside;
+    part.data = prim->data;
+    part.place = prim->place->identity ? NULL : prim->place;
+    part.near_answer = wanted != ((prim->flags & PRIM_INVERSE) != 0);
+    if ((prim->flags & PRIM_PATCH) || part.inside == NULL) {
+        part.box = bounds_empty();
+        part.far_answer = !wanted;
+    }
+    return part;
+}
+
+typedef struct Finished { Items child; ARRAY(CsgPart) part; } Finished;
+
 /* Children that have to be asked one by one go first, the others into a tree of boxes. Nodes that melted away are above
  * nothing any more. */
-static void finish_node(Compile *c, uint32_t index, Items *child)
+static void finish_node(Compile *c, uint32_t index, Finished *out)
 {
     CsgNode *node = &c->csg.data[index];
     Items all = { 0 }, later = { 0 };
     gather(c, node, node, &all);
     bool tree = all.n > LISTED_MAX && !(node->flags & (CSG_CLIP | CSG_BOUND));
-    node->first = child->n;
+    node->first = out->child.n;
     node->n = all.n;
     for (uint32_t i = 0; i < all.n; i++) {
         set_parent(c, all.data[i], index);
         if (tree && i > 0 && is_selective(node->op, item_reach(c, all.data[i])))
             array_push(c->arena, &later, all.data[i]);
         else
-            array_push(c->arena, child, all.data[i]);
+            array_push(c->arena, &out->child, all.data[i]);
     }
     node->n_listed = all.n - later.n;
     if (later.n > 0) {
         Bounds *box = arena_array(c->arena, Bounds, later.n);
         for (uint32_t i = 0; i < later.n; i++) {
-            array_push(c->arena, child, later.data[i]);
+            array_push(c->arena, &out->child, later.data[i]);
             box[i] = item_reach(c, later.data[i]).box;
         }
         node->accel = c->w->accel_ops->build(c->arena, box, later.n);
     }
     for (uint32_t i = 0; i < all.n; i++)
+        array_push(c->arena, &out->part, part_of(c, node, out->child.data[node->first + i]));
+    for (uint32_t i = 0; i < all.n; i++)
         if (is_node(all.data[i]))
-            finish_node(c, ~all.data[i], child);
+            finish_node(c, ~all.data[i], out);
 }
 
 /* Bodies that the accelerator does not find are known by the boxes of all their leaves. Nodes stand in c->body in their order:
@@ -446,14 +477,15 @@ static bool is_body(const Compile *c, uint32_t node, uint32_t *at)
 
 void csg_finish(Compile *c)
 {
-    Items child = { 0 };
+    Finished out = { 0 };
     uint32_t body = 0;
     for (uint32_t k = 1; k < c->csg.n; k++)
         if (c->csg.data[k].parent == 0)
-            finish_node(c, k, &child);
-    c->csg_child.data = child.data;
-    c->csg_child.n = child.n;
-    c->csg_child.capacity = child.capacity;
+            finish_node(c, k, &out);
+    c->csg_child.data = out.child.data;
+    c->csg_child.n = out.child.n;
+    c->csg_child.capacity = out.child.capacity;
+    c->w->csg_part = out.part.data;
     for (uint32_t k = 1; k < c->csg.n; k++)    /* not before: the trees are over boxes as they are */
         if (c->csg.data[k].parent == 0)
             cut_item(c, ~k, bounds_everything(), bounds_everything(), !is_body(c, k, &body));

@@ -35,13 +35,6 @@ typedef struct Search {
 
 /* ---- inside ---- */
 
-typedef struct Ask {                           /* "does any child but `self` answer `wanted`?" */
-    const World *world;
-    uint32_t first, self, skip;
-    const Vec3 *p;
-    bool wanted, yes;
-} Ask;
-
 static bool is_node(uint32_t item)
 {
     return (item & 0x80000000u) != 0;
@@ -55,38 +48,50 @@ static inline bool prim_inside(const Prim *prim, Vec3 p)
 }
 
 /* Prims with a flag of `skip` are not asked. */
-static inline bool child_answers(const World *w, uint32_t item, uint32_t self, const Vec3 *p, bool wanted, uint32_t skip)
+static inline bool part_answers(const World *w, const CsgPart *part, uint32_t self, const Vec3 *p, uint32_t skip)
 {
-    if (item == self)
+    if (part->item == self)
         return false;
-    if (is_node(item))
-        return item_inside(w, item, *p) == wanted;
-    return !(w->prim[item].flags & skip) && prim_inside(&w->prim[item], *p) == wanted;
+    if (!bounds_contain(part->box, *p))
+        return part->far_answer;
+    if (is_node(part->item))
+        return item_inside(w, part->item, *p) == part->near_answer;
+    if (skip != 0 && (w->prim[part->item].flags & skip))
+        return false;
+    return part->inside(part->data, part->place != NULL ? affine_apply(part->place->inv, *p) : *p) == part->near_answer;
 }
 
-static bool ask_child(void *user, uint32_t i, double *t_max)
+typedef struct Ask {                           /* does any child but `self` answer? */
+    const World *world;
+    const CsgPart *part;
+    uint32_t self, skip;
+    const Vec3 *p;
+    bool yes;
+} Ask;
+
+static bool ask_part(void *user, uint32_t i, double *t_max)
 {
     (void)t_max;
     Ask *ask = user;
-    ask->yes = child_answers(ask->world, ask->world->csg_child[ask->first + i], ask->self, ask->p, ask->wanted, ask->skip);
+    ask->yes = part_answers(ask->world, &ask->part[i], ask->self, ask->p, ask->skip);
     return ask->yes;
 }
 
-/* The accelerator holds only children that, outside their box, do not answer what is wanted here. */
-static __attribute__((noinline)) bool some_unlisted(const World *w, const CsgNode *node, uint32_t self, const Vec3 *p, bool wanted, uint32_t skip)
+/* The accelerator holds only children that do not answer outside their box. */
+static __attribute__((noinline)) bool some_unlisted(const World *w, const CsgNode *node, uint32_t self, const Vec3 *p, uint32_t skip)
 {
-    Ask ask = { w, node->first + node->n_listed, self, skip, p, wanted, false };
-    w->accel_ops->around(node->accel, *p, ask_child, &ask);
+    Ask ask = { w, w->csg_part + node->first + node->n_listed, self, skip, p, false };
+    w->accel_ops->around(node->accel, *p, ask_part, &ask);
     return ask.yes;
 }
 
-static bool some_child(const World *w, const CsgNode *node, uint32_t self, const Vec3 *p, bool wanted, uint32_t skip)
+static bool some_part(const World *w, const CsgNode *node, uint32_t self, const Vec3 *p, uint32_t skip)
 {
-    const uint32_t *child = w->csg_child + node->first, *end = child + node->n_listed;
-    for (; child < end; child++)
-        if (child_answers(w, *child, self, p, wanted, skip))
+    const CsgPart *part = w->csg_part + node->first, *end = part + node->n_listed;
+    for (; part < end; part++)
+        if (part_answers(w, part, self, p, skip))
             return true;
-    return node->accel != NULL && some_unlisted(w, node, self, p, wanted, skip);
+    return node->accel != NULL && some_unlisted(w, node, self, p, skip);
 }
 
 enum { NO_ITEM = 0x7fffffff };
@@ -100,7 +105,7 @@ bool item_inside(const World *w, uint32_t item, Vec3 p)
         return item_inside(w, w->csg_child[node->first], p);
     if (!bounds_contain(node->box, p))
         return (node->flags & CSG_INVERSE) != 0;
-    return node->op == CSG_ANY ? some_child(w, node, NO_ITEM, &p, true, 0) : !some_child(w, node, NO_ITEM, &p, false, 0);
+    return some_part(w, node, NO_ITEM, &p, 0) == (node->op == CSG_ANY);
 }
 
 /* ---- which hits count ---- */
@@ -161,8 +166,8 @@ static bool node_keeps(const World *w, const CsgNode *node, uint32_t self, const
     if (node->flags & CSG_BOUND)
         return true;                           /* as bounds_let_through has found */
     if (node->op == CSG_ALL)
-        return !some_child(w, node, self, p, false, 0);
-    return !(node->flags & CSG_MERGE) || !some_child(w, node, self, p, true, skip);
+        return !some_part(w, node, self, p, 0);
+    return !(node->flags & CSG_MERGE) || !some_part(w, node, self, p, skip);
 }
 
 static bool csg_keeps(const Search *search, double t)

@@ -63,6 +63,18 @@ typedef struct CsgNode {
     const void *accel;                         /* item i is child first + n_listed + i; NULL when there are few */
 } CsgNode;
 
+/* A child as its siblings' hits ask it. It answers if it does not let them count: in an ANY node where it contains the point, in an
+ * ALL node where it does not. A prim that is never inside has an empty box. */
+typedef struct CsgPart {
+    Bounds box;                                /* wider than the child: of a point outside the answer is known */
+    uint32_t item;                             /* as in csg_child */
+    bool far_answer;                           /* outside the box */
+    bool near_answer;                          /* inside the box: it answers if `inside` says this, or for a node item_inside */
+    bool (*inside)(const void *shape, Vec3 p); /* of a prim */
+    const void *data;
+    const Affine *place;                       /* NULL: the identity */
+} CsgPart;
+
 typedef struct PlacedTexture {
     const Texture *texture;                    /* top layer */
     const Affine *place;                       /* scene space: the point goes through its inverse first; NULL: identity */
@@ -109,6 +121,7 @@ struct World {
     Bounds *box;                                               /* of each prim, world, cut by its CSG ancestors */
     CsgNode *csg;               uint32_t n_csg;                /* csg[0] unused */
     uint32_t *csg_child;        uint32_t n_csg_children;
+    CsgPart *csg_part;                                         /* of each csg_child */
     /* Top-level items that the accelerator does not find around a point: unbounded, inverted or clipped ones. */
     uint32_t *body;             uint32_t n_bodies;
     Material *material;         uint32_t n_materials;
