@@ -39,8 +39,16 @@ static inline f4 f4_set(float x) { return (f4){ _mm_set1_ps(x) }; }
 static inline f4 f4_add(f4 a, f4 b) { return (f4){ _mm_add_ps(a.v, b.v) }; }
 static inline f4 f4_sub(f4 a, f4 b) { return (f4){ _mm_sub_ps(a.v, b.v) }; }
 static inline f4 f4_mul(f4 a, f4 b) { return (f4){ _mm_mul_ps(a.v, b.v) }; }
+static inline f4 f4_div(f4 a, f4 b) { return (f4){ _mm_div_ps(a.v, b.v) }; }
+static inline f4 f4_sqrt(f4 a) { return (f4){ _mm_sqrt_ps(a.v) }; }
+static inline f4 f4_abs(f4 a) { return (f4){ _mm_andnot_ps(_mm_set1_ps(-0.0f), a.v) }; }
+/* a >= 0 with the sign of b */
+static inline f4 f4_signed(f4 a, f4 b) { return (f4){ _mm_or_ps(a.v, _mm_and_ps(_mm_set1_ps(-0.0f), b.v)) }; }
+static inline f4 f4_of(float a, float b, float c, float d) { return (f4){ _mm_set_ps(d, c, b, a) }; }
 static inline f4 f4_max(f4 a, f4 b) { return (f4){ _mm_max_ps(a.v, b.v) }; }
 static inline f4 f4_min(f4 a, f4 b) { return (f4){ _mm_min_ps(a.v, b.v) }; }
+/* Bit i: a[i] < b[i]. NaN is false. */
+static inline uint32_t f4_lt(f4 a, f4 b) { return (uint32_t)_mm_movemask_ps(_mm_cmplt_ps(a.v, b.v)); }
 /* Toward zero; what no int32_t holds is anything. */
 static inline void f4_to_int(int32_t out[4], f4 a) { _mm_storeu_si128((__m128i_u *)(void *)out, _mm_cvttps_epi32(a.v)); }
 
@@ -100,8 +108,14 @@ static inline f4 f4_set(float x) { f4 r; F4_EACH(r.v[i] = x); return r; }
 static inline f4 f4_add(f4 a, f4 b) { F4_EACH(a.v[i] += b.v[i]); return a; }
 static inline f4 f4_sub(f4 a, f4 b) { F4_EACH(a.v[i] -= b.v[i]); return a; }
 static inline f4 f4_mul(f4 a, f4 b) { F4_EACH(a.v[i] *= b.v[i]); return a; }
+static inline f4 f4_div(f4 a, f4 b) { F4_EACH(a.v[i] /= b.v[i]); return a; }
+static inline f4 f4_sqrt(f4 a) { F4_EACH(a.v[i] = sqrtf(a.v[i])); return a; }
+static inline f4 f4_abs(f4 a) { F4_EACH(a.v[i] = fabsf(a.v[i])); return a; }
+static inline f4 f4_signed(f4 a, f4 b) { F4_EACH(a.v[i] = copysignf(a.v[i], b.v[i])); return a; }
+static inline f4 f4_of(float a, float b, float c, float d) { return (f4){ { a, b, c, d } }; }
 static inline f4 f4_max(f4 a, f4 b) { F4_EACH(a.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i]); return a; }
 static inline f4 f4_min(f4 a, f4 b) { F4_EACH(a.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i]); return a; }
+static inline uint32_t f4_lt(f4 a, f4 b) { uint32_t m = 0; F4_EACH(m |= (uint32_t)(a.v[i] < b.v[i]) << i); return m; }
 static inline void f4_to_int(int32_t out[4], f4 a) { F4_EACH(out[i] = a.v[i] > -0x1p31f && a.v[i] < 0x1p31f ? (int32_t)a.v[i] : 0); }
 
 static inline d4 d4_load(const double *p) { d4 r; F4_EACH(r.v[i] = p[i]); return r; }
