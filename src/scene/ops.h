@@ -11,6 +11,7 @@ typedef struct Ray Ray;                        /* world/ray.h */
 typedef struct Fan Fan;                        /* world/fan.h */
 typedef struct FanHits FanHits;
 typedef struct Vec3s Vec3s;
+typedef struct Solid Solid;                    /* world/glance.h */
 typedef struct Hit Hit;
 typedef struct HitSink HitSink;
 typedef struct Surface Surface;
@@ -56,6 +57,8 @@ struct ShapeOps {
     Bounds (*within)(const void *shape, Bounds box);
     /* Optional: the shape is the half space normal . p <= distance, the normal of unit length: several may have a box. */
     void (*half_space)(const void *shape, Vec3 *normal, double *distance);
+    /* Optional: the shape is this convex solid, but for margins of 2^-30 of its size; false: it is not. */
+    bool (*solid)(const void *shape, Solid *out);
     /* Optional: the largest n . p of its points, n of any length; closer than its box. */
     double (*reach)(const void *shape, Vec3 n);
     bool (*inside)(const void *shape, Vec3 p);                 /* NULL: never inside */

@@ -4,6 +4,7 @@
 #include "sdl/parse.h"
 #include "shape/shape.h"
 #include "world/fan.h"
+#include "world/glance.h"
 
 typedef struct { Vec3 a, b; } Params;
 typedef struct { double side[2][3]; } Box;                 /* low, high */
@@ -133,6 +134,13 @@ static void fan_hits(const void *shape, const Fan *fan, FanHits *out)
     out->unsaid = d4_eq(d4_mul(d4_mul(fan->d.x, fan->d.y), fan->d.z), d4_set(0));
 }
 
+static bool solid(const void *shape, Solid *out)
+{
+    const double *lo = ((const Box *)shape)->side[0], *hi = ((const Box *)shape)->side[1];
+    *out = (Solid){ .lo = vec3(lo[0], lo[1], lo[2]), .hi = vec3(hi[0], hi[1], hi[2]) };
+    return true;
+}
+
 static double reach(const void *shape, Vec3 n)
 {
     const Box *box = shape;
@@ -196,5 +204,5 @@ static Bounds extent(const void *params, const Affine *place)
 
 const ShapeOps shape_box = {
     .keyword = "box", .params_size = sizeof(Params), .flags = SHAPE_HAS_UV | SHAPE_CONVEX | SHAPE_FLAT, .parse = parse, .compile = compile,
-    .hits = hits, .fan_hits = fan_hits, .fan_inside = fan_inside, .reach = reach, .inside = inside, .surface = surface, .extent = extent,
+    .hits = hits, .fan_hits = fan_hits, .fan_inside = fan_inside, .solid = solid, .reach = reach, .inside = inside, .surface = surface, .extent = extent,
 };

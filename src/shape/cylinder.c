@@ -5,6 +5,7 @@
 #include "sdl/parse.h"
 #include "shape/shape.h"
 #include "world/fan.h"
+#include "world/glance.h"
 
 typedef struct { Vec3 end1, end2; double radius; } Params;
 typedef struct { bool open; } Cylinder;
@@ -93,6 +94,12 @@ static void fan_hits(const void *shape, const Fan *fan, FanHits *out)
     out->unsaid = d4_eq(d4_mul(a, dz), zero);      /* along the axis or the ends */
 }
 
+static bool solid(const void *shape, Solid *out)
+{
+    *out = (Solid){ vec3(-INFINITY, -INFINITY, 0), vec3(INFINITY, INFINITY, 1), 2, vec3(0, 0, 0), 1 };
+    return !((const Cylinder *)shape)->open;
+}
+
 static double reach(const void *shape, Vec3 n)
 {
     (void)shape;
@@ -134,5 +141,5 @@ static Bounds extent(const void *params, const Affine *place)
 
 const ShapeOps shape_cylinder = {
     .keyword = "cylinder", .params_size = sizeof(Params), .flags = SHAPE_HAS_OPEN | SHAPE_CONVEX, .parse = parse,
-    .compile = compile, .hits = hits, .fan_hits = fan_hits, .fan_inside = fan_inside, .reach = reach, .inside = inside, .surface = surface, .extent = extent,
+    .compile = compile, .hits = hits, .fan_hits = fan_hits, .fan_inside = fan_inside, .solid = solid, .reach = reach, .inside = inside, .surface = surface, .extent = extent,
 };

@@ -2,6 +2,7 @@
 #include "sdl/parse.h"
 #include "shape/shape.h"
 #include "world/fan.h"
+#include "world/glance.h"
 
 typedef struct { Vec3 centre; double radius; } Params;
 typedef struct { Vec3 centre; double radius, radius2; bool inward; } Sphere;
@@ -53,6 +54,14 @@ static void fan_hits(const void *shape, const Fan *fan, FanHits *out)
     fan_hit(fan, out, 1, d4_add(middle, half), meets);
 }
 
+static bool solid(const void *shape, Solid *out)
+{
+    const Sphere *s = shape;
+    Bounds all = bounds_everything();
+    *out = (Solid){ all.lo, all.hi, 3, s->centre, s->radius };
+    return true;
+}
+
 static double reach(const void *shape, Vec3 n)
 {
     const Sphere *s = shape;
@@ -96,5 +105,5 @@ static Bounds extent(const void *params, const Affine *place)
 
 const ShapeOps shape_sphere = {
     .keyword = "sphere", .params_size = sizeof(Params), .flags = SHAPE_HAS_UV | SHAPE_CONVEX, .parse = parse, .compile = compile,
-    .hits = hits, .fan_hits = fan_hits, .fan_inside = fan_inside, .reach = reach, .inside = inside, .surface = surface, .extent = extent,
+    .hits = hits, .fan_hits = fan_hits, .fan_inside = fan_inside, .solid = solid, .reach = reach, .inside = inside, .surface = surface, .extent = extent,
 };

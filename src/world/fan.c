@@ -51,8 +51,7 @@ static uint32_t inside_prim(const Prim *prim, const Vec3s *p)
     return prim->flags & PRIM_INVERSE ? ~in & FAN_ALL : in;
 }
 
-/* Is every node above a prim one whose children can all be asked four points at a time? */
-static bool csg_is_easy(const World *w, const Prim *prim)
+bool fan_climbs(const World *w, const Prim *prim)
 {
     if (prim->flags & (PRIM_BOUNDED | PRIM_BOXED))
         return false;
@@ -107,7 +106,7 @@ uint32_t fan_meets(const World *w, uint32_t index, const Fan *fan, uint32_t rays
     roots_of(prim, fan, &hits);
     uint32_t said = rays & ~hits.unsaid, found = (hits.in_range[0] | hits.in_range[1]) & said;
     if (prim->csg != 0 && found != 0) {
-        if (!csg_is_easy(w, prim))
+        if (!fan_climbs(w, prim))
             return ask_one_by_one(w, index, fan, found | (rays & hits.unsaid));
         found = csg_leaves(w, index, fan, hits.t[0], hits.in_range[0] & said);
         found |= csg_leaves(w, index, fan, hits.t[1], hits.in_range[1] & said & ~found);

@@ -46,6 +46,9 @@ static inline void fan_hit(const Fan *fan, FanHits *hits, int k, d4 t, uint32_t 
     hits->in_range[k] = rays & d4_lt(d4_set(fan->t_min), t) & d4_le(t, fan->t_max);
 }
 
+/* Is every node above a prim one whose children can all be asked four points at a time? */
+bool fan_climbs(const World *w, const Prim *prim);
+
 /* Bit i of the result: ray i, one of `rays`, meets the prim, counted with its CSG: as prim_meets for each. */
 uint32_t fan_meets(const World *w, uint32_t prim, const Fan *fan, uint32_t rays);
 
