@@ -1,8 +1,8 @@
 /* area.c - area lights: which samples are asked, and how they are weighed (04-shading, section 6.6).
  *
  * The rays to the samples of a light run side by side: what may stand in their way is looked up once, and mostly it is
- * little or nothing. */
-#include "trace/path.h"
+ * little or nothing. Where it is something opaque, samples are lit or dark (penumbra.c). */
+#include "trace/area.h"
 
 /* ---- where samples are ---- */
 
@@ -18,29 +18,12 @@ AreaAxes area_axes(const Light *light, Vec3 l)
     return light->def->orient ? oriented(l, length(light->axis1)) : (AreaAxes){ light->axis1, light->axis2 };
 }
 
-/* POV: off by a little, so that it is never 0. */
-static inline double middle_of(const LightSource *def)
-{
-    return def->circular || def->orient ? 0.499 : 0.5;
-}
-
-/* Which place of the grid a sample takes. */
-static inline Vec2 cell_of(Tracer *t, const LightSource *def, int u, int v)
-{
-    Vec2 cell = { u, v };
-    if (def->jitter) {
-        cell.u += streams_uniform(&t->chance) - 0.5;
-        cell.v += streams_uniform(&t->chance) - 0.5;
-    }
-    return cell;
-}
-
 Vec3 area_sample_place(Tracer *t, const Light *light, const AreaAxes *axes, int u, int v)
 {
     const LightSource *def = light->def;
-    Vec2 cell = cell_of(t, def, u, v);
-    double s = def->size1 > 1 ? cell.u / (def->size1 - 1) - middle_of(def) : 0;
-    double r = def->size2 > 1 ? cell.v / (def->size2 - 1) - middle_of(def) : 0;
+    Vec2 cell = area_cell(t, def, u, v);
+    double s = def->size1 > 1 ? cell.u / (def->size1 - 1) - area_middle(def) : 0;
+    double r = def->size2 > 1 ? cell.v / (def->size2 - 1) - area_middle(def) : 0;
     if (def->circular || def->orient) {
         double distance = sqrt(s * s + r * r), a = fabs(s), b = fabs(r);
         double g = distance > 0 ? (a > b ? a : b) / distance : 0;
@@ -64,19 +47,6 @@ uint32_t area_least_samples(const LightSource *def)
 {
     return least_along(0, def->size1 - 1, def->adaptive) * least_along(0, def->size2 - 1, def->adaptive);
 }
-
-typedef struct Area {
-    const Spot *spot;
-    const Light *light;
-    uint32_t index;                            /* of the light */
-    Vec3 l;
-    AreaAxes axes;
-    Rgb colour;
-    Shaft *among;                              /* what may hide samples; NULL: not known */
-    bool fanned;                               /* samples that meet nothing have this colour: asked four at a time */
-    bool plain;                                /* and the others are dark */
-    Ray ray;                                   /* if fanned: starts as those to the samples do */
-} Area;
 
 /* ---- what lies between ---- */
 
@@ -180,124 +150,7 @@ static inline Rgb area_sample(const Area *a, int u, int v)
     return is_known(a, sample) ? sample->colour : ask(a, sample, u, v);
 }
 
-/* ---- four samples at a time ---- */
-
-typedef struct Asked {                         /* samples that are not known, in the order in which they draw chance */
-    int n;
-    AreaSample *sample[5];
-    double u[5 + FAN_RAYS], v[5 + FAN_RAYS];   /* cell_of each; the rest is room */
-} Asked;
-
-static inline void asked_add(const Area *a, Asked *asked, AreaSample *sample, int u, int v)
-{
-    Vec2 cell = cell_of(a->spot->t, a->light->def, u, v);
-    int n = asked->n++;
-    sample->stamp = a->spot->t->area_stamp;
-    asked->sample[n] = sample;
-    asked->u[n] = cell.u;
-    asked->v[n] = cell.v;
-}
-
-/* As area_sample_place, for a grid of more than one row and column. */
-static Vec3s places_of(const Area *a, const double *u, const double *v)
-{
-    const LightSource *def = a->light->def;
-    d4 middle = d4_set(middle_of(def)), zero = d4_set(0);
-    d4 s = d4_sub(d4_div(d4_load(u), d4_set(def->size1 - 1)), middle);
-    d4 r = d4_sub(d4_div(d4_load(v), d4_set(def->size2 - 1)), middle);
-    if (def->circular || def->orient) {
-        d4 distance = d4_sqrt(d4_add(d4_mul(s, s), d4_mul(r, r)));
-        d4 g = d4_max(d4_div(d4_max(d4_abs(s), d4_abs(r)), distance), zero);   /* 0 / 0 gives 0 */
-        s = d4_mul(s, g);
-        r = d4_mul(r, g);
-    }
-    Vec3s on1 = vec3s_scaled(vec3s_set(a->axes.axis1), s), on2 = vec3s_scaled(vec3s_set(a->axes.axis2), r);
-    return vec3s_add(vec3s_set(a->light->location), vec3s_add(on1, on2));
-}
-
-/* Rays as light_towards and shadow_walk make them where they have no choice. */
-static Fan fan_to(const Area *a, Vec3s from)
-{
-    Vec3s v = vec3s_sub(from, vec3s_set(a->spot->p));
-    d4 d = d4_sqrt(vec3s_dot(v, v));
-    return (Fan){ a->ray.o, a->ray.t_min, vec3s_scaled(v, d4_div(d4_set(1), d)), d4_mul(d, d4_set(LIGHT_END)) };
-}
-
-static Rgb seen_through(const Area *a, Vec3s from, int i)
-{
-    double x[FAN_RAYS], y[FAN_RAYS], z[FAN_RAYS];
-    d4_store(x, from.x);
-    d4_store(y, from.y);
-    d4_store(z, from.z);
-    return seen_from(a, vec3(x[i], y[i], z[i]));
-}
-
-static void asked_see(const Area *a, Asked *asked)
-{
-    for (int first = 0; first < asked->n; first += FAN_RAYS) {
-        int n = asked->n - first < FAN_RAYS ? asked->n - first : FAN_RAYS;
-        for (int i = n; i < FAN_RAYS; i++)     /* rays that nobody looks at */
-            asked->u[first + i] = asked->v[first + i] = 0;
-        Vec3s from = places_of(a, &asked->u[first], &asked->v[first]);
-        Fan fan = fan_to(a, from);
-        uint32_t veiled, hidden = shaft_hides(a->spot->t->world, a->among, &fan, (1u << n) - 1, &veiled);
-        for (int i = 0; i < n; i++)
-            asked->sample[first + i]->colour = hidden >> i & 1   ? rgb_grey(0)
-                                               : veiled >> i & 1 ? seen_through(a, from, i)
-                                                                 : a->colour;
-    }
-}
-
-static void see_corners(const Area *a, int u1, int v1, int u2, int v2, Rgb c[4])
-{
-    const int u[4] = { u1, u2, u1, u2 }, v[4] = { v1, v1, v2, v2 };
-    AreaSample *sample[4];
-    Asked asked;
-    asked.n = 0;
-    for (int i = 0; i < 4; i++) {
-        sample[i] = sample_at(a, u[i], v[i]);
-        if (!is_known(a, sample[i]))
-            asked_add(a, &asked, sample[i], u[i], v[i]);
-    }
-    if (asked.n > 0)
-        asked_see(a, &asked);
-    for (int i = 0; i < 4; i++)
-        c[i] = sample[i]->colour;
-}
-
 /* ---- their mean ---- */
-
-static inline Rgb mean(Rgb a, Rgb b, Rgb c, Rgb d)
-{
-    return rgb_scaled(rgb_add(rgb_add(a, b), rgb_add(c, d)), 0.25f);
-}
-
-/* Three by three samples of a plain light, the corners known: the quarters ask for the middle and the middles of the sides, in
- * this order, and have nothing left to divide. */
-static Rgb mean_of_nine(const Area *a, int u1, int v1, const Rgb c[4])
-{
-    static const int du[5] = { 1, 0, 1, 2, 1 }, dv[5] = { 0, 1, 1, 1, 2 };
-    AreaSample *sample[5];
-    Asked asked;
-    asked.n = 0;
-    for (int i = 0; i < 5; i++) {
-        sample[i] = sample_at(a, u1 + du[i], v1 + dv[i]);
-        if (sample[i]->stamp != a->spot->t->area_stamp)
-            asked_add(a, &asked, sample[i], u1 + du[i], v1 + dv[i]);
-    }
-    if (asked.n > 0)
-        asked_see(a, &asked);
-    Rgb low = sample[0]->colour, left = sample[1]->colour, middle = sample[2]->colour;
-    Rgb right = sample[3]->colour, high = sample[4]->colour;
-    return mean(mean(c[0], low, left, middle), mean(low, c[1], middle, right), mean(left, middle, c[2], high),
-                mean(middle, right, high, c[3]));
-}
-
-static float apart(Rgb a, Rgb b)
-{
-    Rgb d = rgb_sub(a, b);
-    return fabsf(d[0]) + fabsf(d[1]) + fabsf(d[2]);
-}
 
 /* Surely: the fourth numbers have no meaning, but count. */
 static inline bool are_same(Rgb a, Rgb b)
@@ -311,30 +164,24 @@ static bool corners_differ(const Rgb c[4])
 {
     if (are_same(c[0], c[1]) && are_same(c[1], c[2]) && are_same(c[2], c[3]))
         return false;
-    return apart(c[0], c[1]) > 0.1f || apart(c[1], c[3]) > 0.1f || apart(c[3], c[2]) > 0.1f || apart(c[2], c[0]) > 0.1f;
+    return area_differ(c[0], c[1]) || area_differ(c[1], c[3]) || area_differ(c[3], c[2]) || area_differ(c[2], c[0]);
 }
 
 static Rgb area_mean(const Area *a, int u1, int v1, int u2, int v2, int level)
 {
     Rgb c[4];
-    if (a->fanned && u1 < u2 && v1 < v2) {
-        see_corners(a, u1, v1, u2, v2, c);
-    } else {
-        c[0] = area_sample(a, u1, v1);
-        c[1] = area_sample(a, u2, v1);
-        c[2] = area_sample(a, u1, v2);
-        c[3] = area_sample(a, u2, v2);
-    }
+    c[0] = area_sample(a, u1, v1);
+    c[1] = area_sample(a, u2, v1);
+    c[2] = area_sample(a, u1, v2);
+    c[3] = area_sample(a, u2, v2);
     if ((u2 - u1 > 1 || v2 - v1 > 1) && (level < a->light->def->adaptive || corners_differ(c))) {
-        if (a->plain && u2 - u1 == 2 && v2 - v1 == 2)
-            return mean_of_nine(a, u1, v1, c);
         int ul = (u1 + u2) / 2, uh = (u1 + u2 + 1) / 2, vl = (v1 + v2) / 2, vh = (v1 + v2 + 1) / 2;
         c[0] = area_mean(a, u1, v1, ul, vl, level + 1);
         c[1] = area_mean(a, uh, v1, u2, vl, level + 1);
         c[2] = area_mean(a, u1, vh, ul, v2, level + 1);
         c[3] = area_mean(a, uh, vh, u2, v2, level + 1);
     }
-    return mean(c[0], c[1], c[2], c[3]);
+    return area_mean_of(c[0], c[1], c[2], c[3]);
 }
 
 static Rgb mean_of_all(const Area *a)
@@ -367,9 +214,9 @@ Rgb area_visible(const Spot *spot, uint32_t light, Rgb colour)
         return mean_of_equals(&a, rgb_grey(0));
     if (between == BETWEEN_SOME) {
         a.among = &among;
-        a.fanned = colour[0] >= 0 && !shadow_dims(spot->t, source);
-        a.plain = a.fanned && among.n_opaque == among.n;
-        a.ray = shadow_ray(spot, a.l, 0);      /* look_between has seen that all start there */
+        Rgb mean;
+        if (colour[0] >= 0 && penumbra_mean(&a, &mean))
+            return mean;
     }
     return mean_of_all(&a);
 }

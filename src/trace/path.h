@@ -128,6 +128,7 @@ struct Tracer {
     uint32_t *last_blocker;                    /* per light: prim + 1 that hid it last; 0 none */
     AreaSample *area;                          /* samples of the area light in work; valid if stamp is area_stamp */
     uint32_t area_stamp;
+    uint32_t *lit, lit_stamp;                  /* the same where samples are lit or dark: penumbra.c */
     LightSpan *light_span;                     /* n_lights */
     MediaSpan *media_span;                     /* 2 n_lights + 1 */
     int nesting;

@@ -259,6 +259,7 @@ Tracer *tracer_new(Arena *arena, const Tracing *tracing, Radiosity *radiosity)
     t->world = tracing->world;
     t->last_blocker = arena_array(arena, uint32_t, t->world->n_lights + 1);
     t->area = arena_array(arena, AreaSample, tracing->n_area_samples);
+    t->lit = arena_array(arena, uint32_t, tracing->n_area_samples);
     t->light_span = arena_array(arena, LightSpan, t->world->n_lights + 1);
     t->media_span = arena_array(arena, MediaSpan, 2 * (size_t)t->world->n_lights + 1);
     t->gather = gather_new(arena, radiosity);
