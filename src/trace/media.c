@@ -12,6 +12,8 @@ typedef struct Cloud {
     const Affine *place;                       /* NULL: identity */
 } Cloud;
 
+typedef struct Matter { Rgb extinction, emission, scattering; } Matter;        /* of all media at one place */
+
 typedef struct Stretch {
     Tracer *t;
     Vec3 o, d;
@@ -24,6 +26,8 @@ typedef struct Stretch {
     const double *threshold;                   /* of its adaptive sampling, by count */
     float aa_threshold;
     bool scatters;
+    bool even;                                 /* the same matter everywhere: */
+    Matter matter;
     uint32_t n_light_spans;
 } Stretch;
 
@@ -44,6 +48,7 @@ static void add_cloud(Stretch *s, const Media *media, const Affine *place)
     if (s->ruling == NULL || media->intervals > s->ruling->intervals)
         s->ruling = media;
     s->aa_threshold = s->n == 1 ? media->aa_threshold : fminf(s->aa_threshold, media->aa_threshold);
+    s->even = s->even && media->n_density == 0;
     s->scatters = s->scatters || (media->scattering.type != 0 && !rgb_is_zero(media->scattering.colour));
 }
 
@@ -65,6 +70,20 @@ static Rgb density_at(const Cloud *c, Vec3 p)
     for (uint32_t i = 0; i < c->media->n_density; i++)
         density = rgb_mul(density, rgb_of(pigment_colour(c->media->density[i], p, NULL, NULL)));
     return density;
+}
+
+static Matter matter_at(const Stretch *s, Vec3 p)
+{
+    Matter all = { rgb_grey(0), rgb_grey(0), rgb_grey(0) };
+    for (uint32_t i = 0; i < s->n; i++) {
+        const Media *m = s->cloud[i].media;
+        Rgb density = density_at(&s->cloud[i], p);
+        Rgb lost = rgb_add(m->absorption, rgb_scaled(m->scattering.colour, m->scattering.extinction));
+        all.extinction = rgb_add(all.extinction, rgb_mul(density, lost));
+        all.emission = rgb_add(all.emission, rgb_mul(density, m->emission));
+        all.scattering = rgb_add(all.scattering, rgb_mul(density, m->scattering.colour));
+    }
+    return all;
 }
 
 /* How much of light from `l` goes on along the ray; alpha is 1 when one looks into the light. */
@@ -117,21 +136,14 @@ static Sample sample(const Stretch *s, const Part *part, double fraction, bool f
 {
     double at = part->from + fraction * part->length, to_scene = s->t->tracing->to_scene;
     Vec3 p = add(s->o, scaled(s->d, at));
-    Rgb extinction = rgb_grey(0), light = rgb_grey(0), scattering = rgb_grey(0);
-    for (uint32_t i = 0; i < s->n; i++) {
-        const Media *m = s->cloud[i].media;
-        Rgb density = density_at(&s->cloud[i], scaled(p, to_scene));
-        Rgb lost = rgb_add(m->absorption, rgb_scaled(m->scattering.colour, m->scattering.extinction));
-        extinction = rgb_add(extinction, rgb_mul(density, lost));
-        light = rgb_add(light, rgb_mul(density, m->emission));
-        scattering = rgb_add(scattering, rgb_mul(density, m->scattering.colour));
-    }
+    Matter m = s->even ? s->matter : matter_at(s, scaled(p, to_scene));
     float length = (float)(part->length * to_scene);
-    Sample out = { rgb_grey(0), rgb_scaled(extinction, length) };
+    Sample out = { rgb_grey(0), rgb_scaled(m.extinction, length) };
     if (s->in == NULL)
         return out;
+    Rgb light = m.emission;
     if (s->scatters && part->lit)
-        light = rgb_add(light, rgb_mul(scattering, light_at(s, p, at)));
+        light = rgb_add(light, rgb_mul(m.scattering, light_at(s, p, at)));
     out.light = rgb_scaled(light, length);
     if (faded)
         out.light = rgb_mul(out.light, dimmed(rgb_scaled(out.depth, (float)fraction)));
@@ -409,6 +421,8 @@ static Haze through(Stretch *s)
     Haze haze = { { 0, 0, 0 }, { 0, 0, 0 } };
     int intervals = s->ruling->intervals;
     s->threshold = tracing_media_threshold(s->t->tracing, s->ruling);
+    if (s->even)
+        s->matter = matter_at(s, s->o);
     if (s->in != NULL)
         add_lights(s);
     uint32_t n = s->n_light_spans > 0 ? cut(s) : 0;
@@ -451,6 +465,7 @@ static void stretch_start(Stretch *s, Tracer *t, Vec3 o, Vec3 d, double depth, c
     s->n = 0;
     s->ruling = NULL;
     s->scatters = false;
+    s->even = true;
     s->n_light_spans = 0;
 }
 
