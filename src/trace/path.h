@@ -58,13 +58,22 @@ typedef struct Layer {
     double opacity;
 } Layer;
 
+/* What is seen of a layer before any light falls on it. */
+typedef struct Look {
+    Layer layer;
+    Rgb glow;                                  /* sent without any light */
+    Rgb pass;                                  /* light of what is below */
+    bool found;                                /* an image with `once` may have nothing here */
+    bool hides;                                /* all below, and mirrors nothing */
+    bool shines_only;                          /* of lights, shows no more than highlights: they may be left open */
+} Look;
+
 /* A texture as far as it can be shaded before anything is hit: all of one that is the same everywhere. */
 typedef struct Coat {
     TextureLeaf leaf;                          /* all there is of it; top NULL: it is not the same everywhere */
     bool matte;                                /* what is seen of it is glow, and what lights give to its top layer ... */
     const Pigment *pattern;                    /* ... whose colour is this; NULL: the same everywhere */
-    Layer layer;
-    Rgb glow;
+    Look look;
 } Coat;
 
 typedef struct Backdrop { Rgb light, through; } Backdrop;      /* a background: what it sends, what passes through it */

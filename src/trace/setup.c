@@ -234,7 +234,6 @@ const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha
     tracing->ticket = (Ticket){ .adc_bailout = w->globals.adc_bailout, .max_level = tracing->max_level, .lamps = LAMPS_ALL };
     tracing->radiosity = w->globals.radiosity.on && quality >= 9;
     tracing->ambient_light = tracing->radiosity && !tracing->legacy ? rgb_grey(0) : w->globals.ambient_light;
-    tracing->coat = coats_new(arena, tracing, w);
     prepare_areas(arena, tracing, w);
     prepare_lamps(arena, tracing, w);
     prepare_light_lists(arena, tracing, w);
@@ -248,6 +247,7 @@ const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha
         stream_fill(tracing->stream);
     }
     tracing->shadows_dim = shadows_dim(w, tracing);
+    tracing->coat = coats_new(arena, tracing, w);
     hue_fill(tracing->hue);
     return tracing;
 }

@@ -105,7 +105,7 @@ static void remember_mirror(const Shade *s, const Finish *f, const Vec3 *n, Rgb 
         mirrors->rest = rgb_add(mirrors->rest, mirror_light(s, m));
 }
 
-/* ---- one layer ---- */
+/* ---- the look of a layer ---- */
 
 static float opacity(const Tracing *tracing, Colour c)
 {
@@ -113,6 +113,54 @@ static float opacity(const Tracing *tracing, Colour c)
         return 1 - (c.f * rgb_max(rgb_of(c)) + c.t);
     return 1 - c.f - c.t;
 }
+
+static inline Layer layer_of(const Tracing *tracing, const Finish *finish, Colour c)
+{
+    return (Layer){ finish, rgb_of(c), (double)opacity(tracing, c) };
+}
+
+/* What the layer sends out without any light. */
+static inline Rgb layer_glow(const Tracing *tracing, const Layer *layer)
+{
+    Rgb glow = rgb_add(rgb_mul(layer->finish->ambient, tracing->ambient_light), layer->finish->emission);
+    return rgb_scaled(rgb_mul(layer->colour, glow), (float)layer->opacity);
+}
+
+/* Highlights of a clear thing, and no other light of lights. */
+static inline bool shines_only(const Tracing *tracing, const Layer *layer)
+{
+    return tracing->shadows_dim && layer->finish->traits & FINISH_GLOSSY && !(layer->finish->traits & (FINISH_GRAINY | FINISH_FILM)) &&
+           (layer->opacity == 0 || layer->finish->diffuse == 0);
+}
+
+static inline void look_start(Look *out, const Tracing *tracing, const Finish *finish, Colour c, bool found)
+{
+    out->layer = layer_of(tracing, finish, c);
+    out->glow = layer_glow(tracing, &out->layer);
+    out->pass = colour_transmittance(c);
+    out->found = found;
+    out->hides = found && tracing->quality > 1 && rgb_is_zero(out->pass) && !(finish->traits & FINISH_MIRRORS);
+    out->shines_only = shines_only(tracing, &out->layer);
+}
+
+/* n: that of the layer, perhaps kept in `bumps`. */
+static inline const Vec3 *look_at(Shade *s, const TextureLeaf *leaf, const Texture *texture, Look *out, Vec3 *bumps)
+{
+    const Tracing *tracing = s->t->tracing;
+    const Vec3 *n = &s->surface->normal;
+    if (texture->normal != NULL && tracing->quality >= 8) {
+        *bumps = texture_layer_bumps(leaf, texture, *n, &s->at);
+        n = bumps;
+    }
+    bool found = true;
+    Colour c = texture_layer_colour(leaf, texture, &s->at, &found);
+    if (!found && tracing->quality > 1)        /* POV: low quality shows the white that stands for nothing */
+        c = (Colour){ 0, 0, 0, 0, 0 };
+    look_start(out, tracing, texture->finish, c, found);
+    return n;
+}
+
+/* ---- what a layer sends ---- */
 
 /* Gathered for the first layer that shows enough of it. */
 static Rgb light_around(const Shade *s, const Layer *layer, const Vec3 *n, Rgb filter, Around *around)
@@ -136,47 +184,10 @@ static Rgb light_around(const Shade *s, const Layer *layer, const Vec3 *n, Rgb f
     return rgb_scaled(rgb_mul(layer->colour, light), (float)layer->opacity);
 }
 
-/* What the layer sends out without any light. */
-static inline Rgb layer_glow(const Tracing *tracing, const Layer *layer)
+/* Without lights, mirrors left aside. */
+static inline Rgb layer_own(Shade *s, const Look *look, const Vec3 *n, Rgb filter, Around *around)
 {
-    Rgb glow = rgb_add(rgb_mul(layer->finish->ambient, tracing->ambient_light), layer->finish->emission);
-    return rgb_scaled(rgb_mul(layer->colour, glow), (float)layer->opacity);
-}
-
-/* What the layer sends towards the viewer without lights, mirrors left aside. */
-static inline Rgb layer_own(Shade *s, const Layer *layer, const Vec3 *n, Rgb filter, Around *around)
-{
-    Rgb light = layer_glow(s->t->tracing, layer);
-    return s->t->tracing->radiosity ? rgb_add(light, light_around(s, layer, n, filter, around)) : light;
-}
-
-/* What is seen of a layer before any light falls on it. */
-typedef struct Look {
-    Layer layer;
-    const Vec3 *n;
-    Colour colour;
-    bool found;                                /* an image with `once` may have nothing here */
-    Vec3 bumps;                                /* the normal, if it is not the surface's */
-} Look;
-
-static inline Layer layer_of(const Tracing *tracing, const Finish *finish, Colour c)
-{
-    return (Layer){ finish, rgb_of(c), (double)opacity(tracing, c) };
-}
-
-static inline void look_at(Shade *s, const TextureLeaf *leaf, const Texture *texture, Look *out)
-{
-    const Tracing *tracing = s->t->tracing;
-    out->n = &s->surface->normal;
-    if (texture->normal != NULL && tracing->quality >= 8) {
-        out->bumps = texture_layer_bumps(leaf, texture, s->surface->normal, &s->at);
-        out->n = &out->bumps;
-    }
-    out->found = true;
-    out->colour = texture_layer_colour(leaf, texture, &s->at, &out->found);
-    if (!out->found && tracing->quality > 1)   /* POV: low quality shows the white that stands for nothing */
-        out->colour = (Colour){ 0, 0, 0, 0, 0 };
-    out->layer = layer_of(tracing, texture->finish, out->colour);
+    return s->t->tracing->radiosity ? rgb_add(look->glow, light_around(s, &look->layer, n, filter, around)) : look->glow;
 }
 
 static inline float kept(float share)          /* of the light that conserves its energy */
@@ -184,33 +195,32 @@ static inline float kept(float share)          /* of the light that conserves it
     return 1 - share < 1 ? 1 - share : 1;
 }
 
-static Rgb layer_light(Shade *s, const Look *look, Stack *k, Around *around)
+static Rgb layer_light(Shade *s, const Look *look, const Vec3 *n, Stack *k, Around *around)
 {
-    Rgb own = layer_own(s, &look->layer, look->n, k->filter, around);
+    Rgb own = layer_own(s, look, n, k->filter, around);
     if (!k->open)
-        return rgb_add(own, shade_lights(s, &look->layer, look->n));
-    Rgb most, least = shade_lights_loosely(s, &look->layer, look->n, &most);
+        return rgb_add(own, shade_lights(s, &look->layer, n));
+    Rgb most, least = shade_lights_loosely(s, &look->layer, n, &most);
     k->open = !rgb_same(least, most);
     k->own = own;
     k->most = rgb_add(own, most);
     return rgb_add(own, least);
 }
 
-static void add_layer(Shade *s, const Look *look, Stack *k, Mirrors *mirrors, Around *around)
+static void add_layer(Shade *s, const Look *look, const Vec3 *n, Stack *k, Mirrors *mirrors, Around *around)
 {
-    Colour c = look->colour;
     Rgb share = rgb_grey(0);
     if (s->t->tracing->quality <= 1) {
-        k->sum = rgb_of(c);
+        k->sum = look->layer.colour;
     } else {
         if (look->layer.finish->traits & FINISH_MIRRORS) {
-            share = reflectivity(s, &look->layer, look->n);
-            remember_mirror(s, look->layer.finish, look->n, share, k->through, mirrors);
+            share = reflectivity(s, &look->layer, n);
+            remember_mirror(s, look->layer.finish, n, share, k->through, mirrors);
         }
-        k->sum = rgb_add(k->sum, rgb_mul(layer_light(s, look, k, around), k->filter));
+        k->sum = rgb_add(k->sum, rgb_mul(layer_light(s, look, n, k, around), k->filter));
     }
     if (look->found) {
-        k->filter = rgb_mul(k->filter, colour_transmittance(c));
+        k->filter = rgb_mul(k->filter, look->pass);
         k->filtered = true;
         if (look->layer.finish->conserve_energy)
             k->filter = rgb_mul(k->filter, rgb(kept(share[0]), kept(share[1]), kept(share[2])));
@@ -222,13 +232,6 @@ static void add_layer(Shade *s, const Look *look, Stack *k, Mirrors *mirrors, Ar
 static bool same_normal(Vec3 a, Vec3 b)
 {
     return fabs(a.x - b.x) <= TINY && fabs(a.y - b.y) <= TINY && fabs(a.z - b.z) <= TINY;
-}
-
-/* Highlights of a clear thing, and no other light of lights. */
-static bool shines_only(const Tracing *tracing, const Texture *texture, const Layer *layer)
-{
-    return tracing->shadows_dim && tracing->quality > 1 && texture->below == NULL && layer->finish->traits & FINISH_GLOSSY &&
-           !(layer->finish->traits & (FINISH_GRAINY | FINISH_FILM)) && (layer->opacity == 0 || layer->finish->diffuse == 0);
 }
 
 /* What the layers send, and what the rays have brought. */
@@ -255,11 +258,11 @@ static Rgb shade_rays(Shade *s, const Polish *top, const Look *look, const Stack
     Rgb seen = all_seen(k->sum, mirrors, passed);
     if (!k->open || rgb_same(seen, all_seen(k->most, mirrors, passed)))
         return seen;
-    return all_seen(rgb_add(k->own, shade_lights(s, &look->layer, look->n)), mirrors, passed);
+    return all_seen(rgb_add(k->own, shade_lights(s, &look->layer, &top->n)), mirrors, passed);
 }
 
 /* The way of all leaves that mirror or let through, the top layer looked at. */
-static void shade_stack(Shade *s, const TextureLeaf *leaf, Look *look)
+static void shade_stack(Shade *s, const TextureLeaf *leaf, const Look *look, const Vec3 *n)
 {
     double bailout = s->path->ticket->adc_bailout;
     Stack k;
@@ -268,48 +271,52 @@ static void shade_stack(Shade *s, const TextureLeaf *leaf, Look *look)
     k.through = 1;
     k.filtered = false;
     k.most = k.own = rgb_grey(0);
-    k.open = shines_only(s->t->tracing, leaf->top, &look->layer);
-    Polish top = { leaf->top->finish, *look->n };
+    k.open = look->shines_only && leaf->top->below == NULL && s->t->tracing->quality > 1;
+    Polish top = { leaf->top->finish, *n };
     Around around;                             /* not cleared, as the mirrors: large, and few */
     around.known = false;
     Mirrors mirrors;
     mirrors.n = 0;
     mirrors.rest = rgb_grey(0);
+    Look below;
+    Vec3 bumps;
     for (const Texture *texture = leaf->top;;) {
-        add_layer(s, look, &k, &mirrors, &around);
+        add_layer(s, look, n, &k, &mirrors, &around);
         texture = texture->below;
         if (texture == NULL || !(k.through > bailout))
             break;
-        look_at(s, leaf, texture, look);
+        n = look_at(s, leaf, texture, &below, &bumps);
+        look = &below;
     }
     Passed passed = { rgb_grey(0), 0 };
     Rgb seen = shade_rays(s, &top, look, &k, &mirrors, &passed);
     s->sum = colour_add(s->sum, colour_scaled(colour_of(seen, 0, passed.t), leaf->weight));
 }
 
-/* Does the top layer hide all below, and mirror nothing? */
-static inline bool is_matte(const Tracing *tracing, double adc_bailout, const Finish *finish, Colour c)
+/* Most leaves are matte, and need no stack: their light is all. */
+static inline void shade_look(Shade *s, const TextureLeaf *leaf, const Look *look, const Vec3 *n)
 {
-    return tracing->quality > 1 && adc_bailout >= 0 && rgb_is_zero(colour_transmittance(c)) && !(finish->traits & FINISH_MIRRORS);
+    double bailout = s->path->ticket->adc_bailout;
+    if (!look->hides || !(bailout >= 0)) {
+        shade_stack(s, leaf, look, n);
+        return;
+    }
+    Around around;
+    around.known = false;
+    Rgb own = layer_own(s, look, n, rgb_grey(1), &around);
+    Rgb light = rgb_scaled(rgb_add(own, shade_lights(s, &look->layer, n)), leaf->weight);
+    s->sum = colour_of(rgb_add(rgb_of(s->sum), light), s->sum.f, s->sum.t);
 }
 
-/* Most leaves are matte, and need no stack: their light is all. */
 static void shade_leaf(void *user, const TextureLeaf *leaf)
 {
     Shade *s = user;
     if (!(s->path->ticket->adc_bailout < 1))
         return;                                /* not even the top layer counts */
     Look look;
-    look_at(s, leaf, leaf->top, &look);
-    if (!look.found || !is_matte(s->t->tracing, s->path->ticket->adc_bailout, look.layer.finish, look.colour)) {
-        shade_stack(s, leaf, &look);
-        return;
-    }
-    Around around;
-    around.known = false;
-    Rgb own = layer_own(s, &look.layer, look.n, rgb_grey(1), &around);
-    Rgb light = rgb_scaled(rgb_add(own, shade_lights(s, &look.layer, look.n)), leaf->weight);
-    s->sum = colour_of(rgb_add(rgb_of(s->sum), light), s->sum.f, s->sum.t);
+    Vec3 bumps;
+    const Vec3 *n = look_at(s, leaf, leaf->top, &look, &bumps);
+    shade_look(s, leaf, &look, n);
 }
 
 /* A ray that gathers light has its own bailout, and brings what the layer itself does not know of. */
@@ -319,13 +326,12 @@ void coat_prepare(Coat *coat, const Tracing *tracing, const Texture *texture)
     const Pigment *pigment = texture->pigment;
     bool alone = !tracing->radiosity && bailout < 1;
     if (texture_is_flat(texture)) {
-        Colour c = pigment->colour;
         coat->leaf = (TextureLeaf){ .top = texture, .weight = 1 };
-        coat->layer = layer_of(tracing, texture->finish, c);
-        coat->glow = layer_glow(tracing, &coat->layer);
-        coat->matte = alone && is_matte(tracing, bailout, texture->finish, c);
+        look_start(&coat->look, tracing, texture->finish, pigment->colour, true);
+        coat->matte = alone && bailout >= 0 && coat->look.hides;
     } else if (texture->kind == TEXTURE_PLAIN && pigment->kind == PIGMENT_PATTERN && pigment->quick == NULL && pigment_is_opaque(pigment)) {
-        coat->matte = alone && is_matte(tracing, bailout, texture->finish, (Colour){ 0, 0, 0, 0, 0 });
+        look_start(&coat->look, tracing, texture->finish, (Colour){ 0, 0, 0, 0, 0 }, true);
+        coat->matte = alone && bailout >= 0 && coat->look.hides;
         coat->pattern = pigment;
     }
 }
@@ -340,9 +346,10 @@ static inline Vec3 texture_place(const Shade *s)
 
 static void shade_texture(Shade *s, uint32_t texture)
 {
-    const TextureLeaf *flat = &s->t->tracing->coat[texture].leaf;
-    if (flat->top != NULL) {
-        shade_leaf(s, flat);
+    const Coat *coat = &s->t->tracing->coat[texture];
+    if (coat->leaf.top != NULL) {
+        if (s->path->ticket->adc_bailout < 1)
+            shade_look(s, &coat->leaf, &coat->look, &s->surface->normal);
         return;
     }
     if (texture == 0)
@@ -358,7 +365,7 @@ static inline bool shade_matte(Shade *s, const Coat *coat, uint32_t texture, Rgb
     const Tracing *tracing = s->t->tracing;
     s->lamps = s->path->ticket->lamps & ~(unsigned)LAMP_REMEMBERED;    /* nobody asks again */
     if (coat->pattern == NULL) {
-        *out = rgb_add(coat->glow, shade_lights(s, &coat->layer, &s->surface->normal));
+        *out = rgb_add(coat->look.glow, shade_lights(s, &coat->look.layer, &s->surface->normal));
         return true;
     }
     const PlacedTexture *placed = &s->t->world->texture[texture];
