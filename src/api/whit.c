@@ -192,7 +192,11 @@ static void tell_unmodelled(Whit *w)
     }
 }
 
-typedef struct Reading { Str path, text; bool compile; } Reading;
+typedef struct Reading {
+    Str path, text;
+    bool compile;
+    FileFeed *feed;                            /* of which the text is the window */
+} Reading;
 
 static void read_scene(Whit *w, void *with)
 {
@@ -201,6 +205,7 @@ static void read_scene(Whit *w, void *with)
                      .extent = query_extent, .world = query_world, .pigment = host_pigment, .pigments = host_pigments,
                      .pattern = host_pattern, .patterns = host_patterns };
     SdlOptions options = sdl_options(w, r->path);
+    options.feed = r->feed != NULL && !file_feed_is_whole(r->feed) ? r->feed : NULL;
     sdl_parse(&w->arena, w->diag, &host, &options, r->path, r->text, &w->scene);
     tell_unmodelled(w);
     if (r->compile)
@@ -208,28 +213,32 @@ static void read_scene(Whit *w, void *with)
     w->loaded = r->compile;
 }
 
-static bool load_text(Whit *w, Str path, Str text, bool compile)
+static bool load(Whit *w, Reading *r)
 {
     if (w->query)
         return false;                          /* one scene each */
     w->query = query_new(&w->arena, &registry, w->diag);
-    return attempt(w, read_scene, &(Reading){ path, text, compile });
+    return attempt(w, read_scene, r);
 }
 
 static bool load_file(Whit *w, const char *path, bool compile)
 {
-    Str name = str_of(path), text;
-    FileResult result = file_read(&w->arena, NULL, name, &text);
+    Str name = str_of(path);
+    FileFeed feed;
+    FileResult result = file_feed_open(&w->arena, name, &feed);
     if (result == FILE_MISSING) {              /* `whit scene` finds scene.pov */
         Str with_tail = str_concat(&w->arena, name, str_of(".pov"));
-        if (file_read(&w->arena, NULL, with_tail, &text) == FILE_OK) {
+        if (file_feed_open(&w->arena, with_tail, &feed) == FILE_OK) {
             name = with_tail;
             result = FILE_OK;
         }
     }
     if (result != FILE_OK)
         return attempt(w, tell_trouble, &(Trouble){ path, file_result_text(result) });
-    return load_text(w, str_copy(&w->arena, name), text, compile);
+    Reading reading = { str_copy(&w->arena, name), { feed.data, (uint32_t)feed.n }, compile, &feed };
+    bool loaded = load(w, &reading);
+    file_feed_close(&feed);
+    return loaded;
 }
 
 bool whit_load(Whit *w, const char *path)
@@ -245,7 +254,7 @@ bool whit_check(Whit *w, const char *path)
 bool whit_load_text(Whit *w, const char *name, const char *text, size_t bytes)
 {
     Str own = str_copy(&w->arena, (Str){ text, (uint32_t)bytes });
-    return load_text(w, str_copy(&w->arena, str_of(name)), own, true);
+    return load(w, &(Reading){ str_copy(&w->arena, str_of(name)), own, true, NULL });
 }
 
 /* ---- rendering ---- */

@@ -6,12 +6,14 @@
 #include <string.h>
 
 #include "base/array.h"
+#include "base/file.h"
 
 /* A scene that warns in every turn of a loop must not fill the memory, nor drown the one warning that matters. */
 enum { MAX_KEPT = 1000, MAX_SOURCE_LINE = 160, MAX_SOURCES = UINT16_MAX };
 
 typedef struct Source {
     Str name, text;
+    bool unread;
     uint32_t last_line;                        /* where the last look-up ended: messages come in order */
     size_t last_at;
 } Source;
@@ -48,7 +50,8 @@ uint16_t diag_source(Diag *d, Str name, Str text)
 {
     if (d->source.n >= MAX_SOURCES)
         return 0;                              /* the 65536th file is reported under the first one's name */
-    array_push(d->arena, &d->source, (Source){ .name = str_copy(d->arena, name), .text = text, .last_line = 1 });
+    array_push(d->arena, &d->source, (Source){ .name = str_copy(d->arena, name), .text = text, .unread = text.data == NULL,
+                                               .last_line = 1 });
     return (uint16_t)(d->source.n - 1);
 }
 
@@ -57,9 +60,15 @@ Str diag_source_name(const Diag *d, uint16_t source)
     return source < d->source.n ? d->source.data[source].name : str_of("");
 }
 
-Str diag_source_text(const Diag *d, uint16_t source)
+Str diag_source_text(Diag *d, uint16_t source)
 {
-    return source < d->source.n ? d->source.data[source].text : str_of("");
+    if (source >= d->source.n)
+        return str_of("");
+    Source *s = &d->source.data[source];
+    if (s->unread && file_read(d->arena, NULL, s->name, &s->text) != FILE_OK)
+        s->text = str_of("");
+    s->unread = false;
+    return s->text;
 }
 
 void diag_chain(Diag *d, Str (*chain)(void *user, Arena *a), void *user)
@@ -104,6 +113,7 @@ static Str caret(Diag *d, Loc loc)
 {
     if (!loc.line || !loc.column || loc.source >= d->source.n)
         return str_of("");
+    diag_source_text(d, loc.source);
     Str line = source_line(&d->source.data[loc.source], loc.line);
     uint32_t column = loc.column - 1u;
     if (column > line.n || line.n == 0)

@@ -27,9 +27,10 @@ typedef struct Diag Diag;
 
 Diag *diag_new(Arena *arena);
 void diag_sink(Diag *d, void (*show)(void *user, const DiagMessage *m), void *user);   /* told at once; may be NULL */
-uint16_t diag_source(Diag *d, Str name, Str text);         /* registers a source file; its text must outlive d */
+/* Registers a source file; its text must outlive d. Without text it is the file of that name, and is read when it is needed. */
+uint16_t diag_source(Diag *d, Str name, Str text);
 Str diag_source_name(const Diag *d, uint16_t source);
-Str diag_source_text(const Diag *d, uint16_t source);
+Str diag_source_text(Diag *d, uint16_t source);
 
 /* Called by diag when a message is built, to append lines like "  in macro Tree called at chair.pov:40:3". */
 void diag_chain(Diag *d, Str (*chain)(void *user, Arena *a), void *user);

@@ -110,6 +110,76 @@ FileResult file_read(Arena *a, const FileAccess *access, Str path, Str *out)
     return n == (size_t)size ? FILE_OK : FILE_UNREADABLE;
 }
 
+enum { FEED_FROM = 1 << 20, FEED_WINDOW = 1 << 18 };
+
+/* Behind the n bytes that are there. What cannot be read is the end. */
+static void fill(FileFeed *f)
+{
+    while (f->n < f->capacity && f->offset + f->n < f->size) {
+        ssize_t got = pread(f->fd, f->data + f->n, f->capacity - f->n, (off_t)(f->offset + f->n));
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got <= 0)
+            f->size = f->offset + f->n;
+        else
+            f->n += (size_t)got;
+    }
+    f->data[f->n] = 0;
+}
+
+FileResult file_feed_open(Arena *a, Str path, FileFeed *out)
+{
+    *out = (FileFeed){ .fd = -1 };
+    FileResult result = open_read(a, NULL, path, &out->fd);
+    if (result != FILE_OK)
+        return result;
+    off_t size = lseek(out->fd, 0, SEEK_END);
+    size_t capacity = size < FEED_FROM ? (size_t)size : FEED_WINDOW;
+    if (size < 0 || size >= (off_t)UINT32_MAX || (a->limit && capacity + a->used >= a->limit)) {
+        file_feed_close(out);
+        return FILE_TOO_BIG;
+    }
+    out->size = (uint64_t)size;
+    out->capacity = capacity;
+    out->data = arena_alloc(a, capacity + 1);
+    fill(out);
+    if (out->size != (uint64_t)size)
+        result = FILE_UNREADABLE;
+    if (result != FILE_OK || file_feed_is_whole(out))
+        file_feed_close(out);
+    return result;
+}
+
+void file_feed_close(FileFeed *f)
+{
+    if (f->fd >= 0)
+        close(f->fd);
+    f->fd = -1;
+}
+
+bool file_feed_is_whole(const FileFeed *f)
+{
+    return f->offset + f->n >= f->size;
+}
+
+bool file_feed_more(FileFeed *f, size_t used)
+{
+    if (file_feed_is_whole(f))
+        return false;
+    memmove(f->data, f->data + used, f->n - used);
+    f->offset += used;
+    f->n -= used;
+    fill(f);
+    return true;
+}
+
+void file_feed_seek(FileFeed *f, uint64_t offset)
+{
+    f->offset = offset;
+    f->n = 0;
+    fill(f);
+}
+
 /* The file need not exist, but its folder must, and must be allowed; an existing file must itself be allowed and regular. */
 FileResult file_open_write(Arena *scratch, const FileAccess *access, Str path, bool append, FILE **out)
 {

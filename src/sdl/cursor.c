@@ -274,7 +274,8 @@ bool cursor_branches(int directive)
 
 static uint64_t capture_key(const Parser *p, const Lexer *l)
 {
-    return (uint64_t)l->source << 40 | (uint64_t)(l->at - diag_source_text(p->diag, l->source).data);
+    const char *start = l->feed != NULL ? l->feed->data : diag_source_text(p->diag, l->source).data;
+    return (uint64_t)l->source << 40 | (lex_base(l) + (uint64_t)(l->at - start));
 }
 
 static const Capture *find_capture(Parser *p, uint64_t key, uint32_t *slot)
@@ -304,6 +305,7 @@ typedef struct Beginning {
     Token token[BEGINNING];
     uint32_t n;
     Lexer after;
+    uint64_t base;                             /* of that */
 } Beginning;
 
 /* How many tokens there are from `first`, which has been read, to its #end. */
@@ -318,6 +320,7 @@ static uint32_t count_body(Parser *p, Lexer l, const Token *first, Beginning *b)
             b->token[n] = t;
             b->n = n + 1;
             b->after = l;
+            b->base = lex_base(&l);
         }
         if (t.kind == TOK_END && p->n_includes > 1 && (first->directive == KW_WHILE || first->directive == KW_FOR))
             fail(p->diag, first->loc, "#%s loop did not end in file where it started.",
@@ -350,6 +353,7 @@ const Capture *cursor_capture(Parser *p, Lexer *l, const Token *first)
     tokens[n].kind = TOK_END;
     memcpy(tokens, beginning.token, beginning.n * sizeof *tokens);
     *l = beginning.after;
+    lex_resume(l, beginning.base);
     open[n_open++] = 0;
     for (uint32_t at = 1; at < n; at++) {
         Token *t = &tokens[at];

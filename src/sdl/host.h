@@ -2,6 +2,7 @@
 #ifndef SDL_HOST_H
 #define SDL_HOST_H
 
+#include "base/file.h"
 #include "scene/ops.h"
 
 /* What parse-time built-ins ask of rooms that sdl may not include. Points are in scene space. */
@@ -33,6 +34,7 @@ typedef struct SdlOptions {
     const Str *allow_write;         uint32_t n_allow_write;
     bool strict;
     Str input_name;                            /* value of input_file_name */
+    FileFeed *feed;                            /* NULL, or: the text is the window of this, and there is more behind it */
     const volatile int *stop;                  /* NULL, or: parsing fails where it stands once this is not 0 */
 } SdlOptions;
 

@@ -31,6 +31,8 @@ static const uint16_t mark_of[128] = {
     ['^'] = TOK_OTHER, ['~'] = TOK_OTHER, ['\''] = TOK_OTHER,
 };
 
+static const char others[] = "@\\`$%^~'";
+
 void lex_start(Lexer *l, uint16_t source, Str text)
 {
     if (!text.n)
@@ -40,20 +42,73 @@ void lex_start(Lexer *l, uint16_t source, Str text)
         l->at++;
 }
 
+/* ---- long files ---- */
+
+/* A token that begins has this much text before it, or all there is: none is longer, but for numbers without end. */
+enum { TOKEN_ROOM = 1 << 13 };
+
+/* Moves the window, if there is more to come. The line goes along from its beginning, or as far as columns count. */
+static bool more(Lexer *l)
+{
+    FileFeed *f = l->feed;
+    if (f == NULL)
+        return false;
+    size_t at = (size_t)(l->at - f->data), line = (size_t)(l->line_start - f->data);
+    if (at - line > UINT16_MAX)
+        line = at - UINT16_MAX;
+    if (!file_feed_more(f, line))
+        return false;
+    l->at = f->data + (at - line);
+    l->line_start = f->data;
+    l->end = f->data + f->n;
+    return true;
+}
+
+uint64_t lex_base(const Lexer *l)
+{
+    return l->feed != NULL ? l->feed->offset : 0;
+}
+
+void lex_resume(Lexer *l, uint64_t base)
+{
+    FileFeed *f = l->feed;
+    if (f == NULL)
+        return;
+    uint64_t at = base + (uint64_t)(l->at - f->data), line = base + (uint64_t)(l->line_start - f->data);
+    if (line < f->offset)
+        file_feed_seek(f, line);
+    l->at = f->data + (at - f->offset);
+    l->line_start = f->data + (line - f->offset);
+    l->end = f->data + f->n;
+}
+
+/* ---- places ---- */
+
 Loc lex_loc(const Lexer *l)
 {
     ptrdiff_t column = l->at - l->line_start + 1;
     return (Loc){ l->line, l->source, (uint16_t)(column > UINT16_MAX ? UINT16_MAX : column) };
 }
 
+static const char *back_over_blanks(const char *start, const char *s, uint32_t *line)
+{
+    while (s > start && (unsigned char)s[-1] <= ' ') {
+        s--;
+        *line -= *s == '\n' && *line > 1;
+    }
+    return s;
+}
+
 /* The end of a file is told as the end of its last line with something on it: there is something to point at. */
 static Loc end_loc(Parser *p, const Lexer *l)
 {
-    const char *start = diag_source_text(p->diag, l->source).data, *s = l->end;
     uint32_t line = l->line;
-    while (s > start && (unsigned char)s[-1] <= ' ') {
-        s--;
-        line -= *s == '\n' && line > 1;
+    const char *start = l->feed != NULL ? l->feed->data : diag_source_text(p->diag, l->source).data;
+    const char *s = back_over_blanks(start, l->end, &line);
+    if (s == start && lex_base(l) > 0) {       /* a whole window of blank lines */
+        Str whole = diag_source_text(p->diag, l->source);
+        start = whole.data;
+        s = back_over_blanks(start, start + (lex_base(l) < whole.n ? lex_base(l) : whole.n), &line);
     }
     const char *from = s;
     while (from > start && from[-1] != '\n' && from[-1] != '\r')
@@ -81,9 +136,12 @@ static void block_comment(Parser *p, Lexer *l)
     const char *s = l->at + 2;
     unsigned open = 1;
     while (open) {
-        if (l->end - s < 2)
-            fail(p->diag, start, "No */ closing comment found.");
-        if (s[0] == '*' && s[1] == '/') {
+        if (l->end - s < 2) {
+            l->at = s;
+            if (!more(l))
+                fail(p->diag, start, "No */ closing comment found.");
+            s = l->at;
+        } else if (s[0] == '*' && s[1] == '/') {
             s += 2;
             open--;
         } else if (s[0] == '/' && s[1] == '*') {
@@ -102,7 +160,8 @@ const char *lex_blanks(Lexer *l, const char *s)
 {
     for (;;) {
         unsigned char class = class_at(s);
-        if (class == C_LINE)
+        bool cut = class == C_LINE && s + 1 == l->end && l->feed != NULL && !file_feed_is_whole(l->feed);      /* CR | LF */
+        if (class == C_LINE && !cut)
             s = line_end(l, s);
         else if (class == C_BLANK && s < l->end)
             s++;
@@ -111,27 +170,36 @@ const char *lex_blanks(Lexer *l, const char *s)
     }
 }
 
-/* Behind `//`. */
-static const char *line_comment(const Lexer *l, const char *s)
+/* At `//`. */
+static void line_comment(Lexer *l)
 {
-    const char *lf = memchr(s, '\n', (size_t)(l->end - s));
-    const char *stop = lf ? lf : l->end;
-    const char *cr = memchr(s, '\r', (size_t)(stop - s));
-    return cr ? cr : stop;
+    do {
+        const char *lf = memchr(l->at, '\n', (size_t)(l->end - l->at));
+        const char *stop = lf ? lf : l->end;
+        const char *cr = memchr(l->at, '\r', (size_t)(stop - l->at));
+        l->at = cr ? cr : stop;
+    } while (l->at == l->end && more(l));
 }
 
+static bool comment(Parser *p, Lexer *l)
+{
+    if (l->at[1] == '/')
+        line_comment(l);
+    else if (l->at[1] == '*')
+        block_comment(p, l);
+    else
+        return false;
+    return true;
+}
+
+/* Behind it there is room for a token. */
 static inline void skip_blank(Parser *p, Lexer *l)
 {
-    l->at = lex_blank(l, l->at);
-    while (*l->at == '/') {
-        if (l->at[1] == '/')
-            l->at = line_comment(l, l->at);
-        else if (l->at[1] == '*')
-            block_comment(p, l);
-        else
-            return;
+    do {
         l->at = lex_blank(l, l->at);
-    }
+        while (*l->at == '/' && comment(p, l))
+            l->at = lex_blank(l, l->at);
+    } while (l->feed != NULL && l->end - l->at < TOKEN_ROOM && more(l));
 }
 
 static void word(Parser *p, Lexer *l, Token *out)
@@ -169,8 +237,8 @@ static void string(Parser *p, Lexer *l, Token *out)
     if (s - start > MAX_LITERAL)
         fail(p->diag, out->loc, "String too long.");
     out->kind = TOK_STRING;
-    out->text = start;
     out->n = (uint32_t)(s - start);
+    out->text = l->feed == NULL ? start : arena_copy(p->arena, start, out->n);
     l->at = s + 1;
 }
 
@@ -179,6 +247,8 @@ static void number(Parser *p, Lexer *l, Token *out)
     out->kind = TOK_NUMBER;
     const char *start = l->at;
     l->at = number_scan(start, l->end, &out->number);
+    if (l->at == l->end && l->feed != NULL && !file_feed_is_whole(l->feed))
+        fail(p->diag, out->loc, "a number of more than %d characters in a long file", TOKEN_ROOM);
     if (*l->at == '.' && memchr(start, '.', (size_t)(l->at - start)))
         fail(p->diag, lex_loc(l), "Unexpected additional '.' in floating-point number");
 }
@@ -238,7 +308,7 @@ void lex_next(Parser *p, Lexer *l, Token *out)
             char c = *l->at++;
             bool equal = *l->at == '=';
             out->kind = c == '<' ? TOK_LESS : mark_of[(unsigned char)c];
-            out->text = l->at - 1;
+            out->text = out->kind == TOK_OTHER ? strchr(others, c) : NULL;
             if (equal && (c == '<' || c == '>' || c == '!')) {
                 out->kind = c == '<' ? TOK_LESS_EQUAL : c == '>' ? TOK_GREATER_EQUAL : TOK_NOT_EQUAL;
                 l->at++;

@@ -47,7 +47,8 @@ Parser *parser_new(Arena *scene_arena, Diag *diag, const SdlHost *host, const Sd
     init_access(p);
     symbols_init(p);
     symbol_predefined(p);
-    cursor_start(p, diag_source(diag, path, text), text);
+    cursor_start(p, diag_source(diag, path, options->feed == NULL ? text : (Str){ 0 }), text);
+    cursor_top(p)->lexer.feed = options->feed;
     return p;
 }
 

@@ -32,11 +32,13 @@ int parse_peek_raw(Parser *p)
     Token t = p->token;
     if (p->have)
         return t.kind;
-    const Reader *r = cursor_top(p);
+    Reader *r = cursor_top(p);
     if (!r->is_file)
         return r->at < r->n ? r->tokens[r->at].kind : TOK_END;
     Lexer ahead = r->lexer;
+    uint64_t base = lex_base(&ahead);
     lex_next(p, &ahead, &t);
+    lex_resume(&r->lexer, base);
     return t.kind;
 }
 

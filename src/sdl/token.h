@@ -7,6 +7,7 @@
 #define SDL_TOKEN_H
 
 #include "base/diag.h"
+#include "base/file.h"
 #include "sdl/parse.h"
 
 typedef struct Binding Binding;
@@ -35,11 +36,15 @@ typedef struct Token {
 
 typedef struct Lexer {
     const char *at, *end, *line_start;
+    FileFeed *feed;                            /* NULL, or: the text is its window */
     uint32_t line;
     uint16_t source;
 } Lexer;
 
 void lex_start(Lexer *l, uint16_t source, Str text);       /* skips a UTF-8 mark; then `at` is behind the start */
+/* A copy of a lexer goes on where it was, though the window may have moved: `base` is lex_base() of when it was made. */
+uint64_t lex_base(const Lexer *l);
+void lex_resume(Lexer *l, uint64_t base);
 void lex_next(Parser *p, Lexer *l, Token *out);
 /* Skips blanks and comments; true if the character after them is `c`, which is taken. */
 bool lex_accept(Parser *p, Lexer *l, char c);

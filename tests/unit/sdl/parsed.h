@@ -34,15 +34,16 @@ static double no_value(void *user, const Pattern *pattern, Vec3 p)
     return 0;
 }
 
-static Parsed *parsed_as(const char *text, bool strict)
+/* feed: NULL, or the text is its window. */
+static Parsed *parsed_from(const char *path, const char *text, FileFeed *feed, bool strict)
 {
     Parsed *volatile s = calloc(1, sizeof *s);
     SdlHost host = { .registry = &registry, .inside = no_inside, .pigment = no_colour, .pattern = no_value };
-    SdlOptions options = { .width = 320, .height = 240, .strict = strict, .input_name = str_of("test.pov") };
+    SdlOptions options = { .width = 320, .height = 240, .strict = strict, .input_name = str_of(path), .feed = feed };
     arena_init(&s->arena);
     s->diag = diag_new(&s->arena);
     if (setjmp(*diag_landing(s->diag)) == 0)
-        sdl_parse(&s->arena, s->diag, &host, &options, str_of("test.pov"), str_of(text), &s->scene);
+        sdl_parse(&s->arena, s->diag, &host, &options, str_of(path), str_of(text), &s->scene);
     else
         s->failed = true;
     return s;
@@ -50,12 +51,12 @@ static Parsed *parsed_as(const char *text, bool strict)
 
 static inline Parsed *parsed(const char *text)
 {
-    return parsed_as(text, false);
+    return parsed_from("test.pov", text, NULL, false);
 }
 
 static inline Parsed *parsed_strictly(const char *text)
 {
-    return parsed_as(text, true);
+    return parsed_from("test.pov", text, NULL, true);
 }
 
 static void parsed_free(Parsed *s)
@@ -65,7 +66,7 @@ static void parsed_free(Parsed *s)
 }
 
 /* Is this among the texts of the messages? Messages fold lines; so must `text`, that is: keep it short. */
-static bool said(const Parsed *s, DiagKind kind, const char *text)
+static inline bool said(const Parsed *s, DiagKind kind, const char *text)
 {
     for (uint32_t i = 0; i < diag_count(s->diag); i++) {
         const DiagMessage *m = diag_message(s->diag, i);
