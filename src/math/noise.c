@@ -176,6 +176,11 @@ Vec2 noise_pair_turbulence(const Vec3 *p, int octaves, double omega, double lamb
     return kernel->pair_turbulence(p, octaves, omega, lambda);
 }
 
+void noise_displace(Vec3 *p, const Vec3 *amount, int octaves, double omega, double lambda)
+{
+    kernel->displace(p, amount, octaves, omega, lambda);
+}
+
 bool noise_two_nearest(const NoiseCube *cube, const Vec3 *p, double square[2])
 {
     if (kernel->two_nearest == NULL)

@@ -26,6 +26,7 @@ double noise_ridges(int generator, const Vec3 *p);
 double noise_turbulence(int generator, Vec3 p, int octaves, double omega, double lambda);
 Vec3 noise_vector_turbulence(const Vec3 *p, int octaves, double omega, double lambda);
 Vec2 noise_pair_turbulence(const Vec3 *p, int octaves, double omega, double lambda);       /* x and y of V(p) */
+void noise_displace(Vec3 *p, const Vec3 *amount, int octaves, double omega, double lambda);    /* adds amount * V(p) to p */
 
 enum { NOISE_CELLS = 4096 };
 

@@ -6,7 +6,6 @@
  *
  * The octaves of a turbulence do not depend on each other, but one octave alone fills the processor's window. So first all
  * points find their cells (Spots), then all sums are made: each of the two steps is short enough for several to overlap. */
-#include <limits.h>
 #include <string.h>
 
 #include "base/cpu.h"
@@ -23,9 +22,6 @@ enum { MAX_OCTAVES = 10 };
 
 typedef double Pair __attribute__((vector_size(16)));
 typedef double Quad __attribute__((vector_size(32)));
-#ifdef __AVX512F__
-typedef double Oct __attribute__((vector_size(64)));
-#endif
 typedef double QuadInMemory __attribute__((vector_size(32), aligned(8), may_alias));
 
 static inline Quad load(const double *from)
@@ -38,7 +34,7 @@ static inline Quad load(const double *from)
 typedef struct Spots {
     Quad low[MAX_OCTAVES];                     /* 1/2 and the way from the low corner: x, y, z */
     Quad weight[2][MAX_OCTAVES];               /* of the corners of the lower layer and of the upper: 00, 10, 01, 11 */
-    int cell[MAX_OCTAVES][4];                  /* -, x, y, z: 0..4095 */
+    long long cell[MAX_OCTAVES][4];            /* -, x, y, z: 0..4095 */
 } __attribute__((aligned(64))) Spots;
 
 /* Beyond this no fraction is left in a double; the lattice index must fit an integer. */
@@ -71,39 +67,67 @@ static inline void spot_set(Spots *spots, int k, Vec3 p)
 
 #ifdef __AVX2__
 
+typedef long long Lanes __attribute__((vector_size(32)));
+
 static inline Quad quad(double x)
 {
     return (Quad){ x, x, x, x };
 }
 
-/* The same for p = (1/2, x, y, z). Returns the corner: INT_MIN where it does not fit an integer. A zero may lose its sign, which shows nowhere. */
-static inline __m128i spot_set_quad(Spots *spots, int k, Quad p)
+/* All bits where p is negative. */
+static inline Lanes signs(Quad p)
 {
-    Quad shifted = _mm256_blendv_pd(p, p - quad(1 - 1e-10), p);
-    __m128i corner = _mm256_cvttpd_epi32(shifted);
+#ifdef __AVX512F__
+    return (Lanes)_mm256_srai_epi64((__m256i)p, 63);
+#else
+    return p < 0;
+#endif
+}
+
+/* What does not fit is far below 0. */
+static inline Lanes truncated(Quad p)
+{
+#ifdef __AVX512F__
+    return (Lanes)_mm256_cvttpd_epi64(p);
+#else
+    return (Lanes)_mm256_cvtepi32_epi64(_mm256_cvttpd_epi32(p));
+#endif
+}
+
+/* The same for p = (1/2, x, y, z). Returns numbers of bits beyond 30 for points that are too far for this. A zero may lose its sign, which
+ * shows nowhere. */
+static inline Lanes spot_set_quad(Spots *spots, int k, Quad p)
+{
+    Lanes sign = signs(p);
+    Quad shifted = p - (Quad)((Lanes)quad(1 - 1e-10) & sign);
+    Lanes corner = truncated(shifted);
     Quad low = p - _mm256_round_pd(shifted, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC), s = low * low * (3 - 2 * low), t = 1 - s;
     Quad x = _mm256_permute4x64_pd(_mm256_unpackhi_pd(t, s), 0x44), y = _mm256_permute4x64_pd(_mm256_unpacklo_pd(t, s), 0xfa);
     spots->low[k] = low;
     spots->weight[0][k] = x * y * _mm256_permute4x64_pd(t, 0xff);
     spots->weight[1][k] = x * y * _mm256_permute4x64_pd(s, 0xff);
-    *(__m128i *)spots->cell[k] = _mm_and_si128(_mm_add_epi32(corner, _mm_set1_epi32(10000)), _mm_set1_epi32(4095));
-    return corner;
+    *(Lanes *)spots->cell[k] = (corner + 10000) & 4095;
+    return corner ^ sign;
 }
 
 #ifdef __AVX512F__
 
+typedef double Oct __attribute__((vector_size(64)));
+typedef long long Lanes8 __attribute__((vector_size(64)));
+
 /* Two octaves. */
-static inline __m256i spot_set_oct(Spots *spots, int k, Oct p)
+static inline Lanes8 spot_set_oct(Spots *spots, int k, Oct p)
 {
-    Oct shifted = _mm512_mask_sub_pd(p, _mm512_movepi64_mask((__m512i)p), p, _mm512_set1_pd(1 - 1e-10));
-    __m256i corner = _mm512_cvttpd_epi32(shifted);
+    Lanes8 sign = (Lanes8)_mm512_srai_epi64((__m512i)p, 63);
+    Oct shifted = p - (Oct)((Lanes8)_mm512_set1_pd(1 - 1e-10) & sign);
+    Lanes8 corner = (Lanes8)_mm512_cvttpd_epi64(shifted);
     Oct low = p - _mm512_roundscale_pd(shifted, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC), s = low * low * (3 - 2 * low), t = 1 - s;
     Oct x = _mm512_permutex_pd(_mm512_unpackhi_pd(t, s), 0x44), y = _mm512_permutex_pd(_mm512_unpacklo_pd(t, s), 0xfa);
     *(Oct *)&spots->low[k] = low;
     *(Oct *)&spots->weight[0][k] = x * y * _mm512_permutex_pd(t, 0xff);
     *(Oct *)&spots->weight[1][k] = x * y * _mm512_permutex_pd(s, 0xff);
-    *(__m256i *)spots->cell[k] = _mm256_and_si256(_mm256_add_epi32(corner, _mm256_set1_epi32(10000)), _mm256_set1_epi32(4095));
-    return corner;
+    *(Lanes8 *)spots->cell[k] = (corner + 10000) & 4095;
+    return corner ^ sign;
 }
 
 #endif
@@ -114,22 +138,22 @@ static inline bool spots_set(Spots *spots, const Vec3 *p, double first, double s
     /* Blended, as one load of y and z together would have to wait for two stores. */
     Quad from = _mm256_blend_pd(_mm256_blend_pd(quad(0.5), quad(p->x), 2), _mm256_blend_pd(quad(p->y), quad(p->z), 8), 12);
     Quad scale = { 1, first, first, first }, by = { 1, step, step, step };
-    __m128i least = _mm_setzero_si128();
+    Lanes far = { 0 };
     int k = 0;
 #ifdef __AVX512F__
     if (n >= 2) {
         Oct from2 = _mm512_broadcast_f64x4(from), by2 = _mm512_broadcast_f64x4(by);
         Oct scale2 = _mm512_insertf64x4(_mm512_castpd256_pd512(scale), scale * by, 1);
-        __m256i least2 = _mm256_setzero_si256();
+        Lanes8 far2 = { 0 };
         for (; k + 2 <= n; k += 2, scale2 = scale2 * by2 * by2)
-            least2 = _mm256_min_epi32(least2, spot_set_oct(spots, k, from2 * scale2));
-        least = _mm_min_epi32(_mm256_castsi256_si128(least2), _mm256_extracti128_si256(least2, 1));
+            far2 |= spot_set_oct(spots, k, from2 * scale2);
+        far = (Lanes)(_mm512_castsi512_si256((__m512i)far2) | _mm512_extracti64x4_epi64((__m512i)far2, 1));
         scale = _mm512_castpd512_pd256(scale2);
     }
 #endif
     for (; k < n; k++, scale *= by)
-        least = _mm_min_epi32(least, spot_set_quad(spots, k, from * scale));
-    return _mm_movemask_epi8(_mm_cmpeq_epi32(least, _mm_set1_epi32(INT_MIN))) == 0;
+        far |= spot_set_quad(spots, k, from * scale);
+    return _mm256_testz_si256((__m256i)far, _mm256_set1_epi64x(~0x3fffffffll));
 }
 
 #else
@@ -414,16 +438,33 @@ AWAY static Vec3 far_turbulence(const Vec3 *p, int n, double omega, double lambd
     return sum;
 }
 
+static inline Quad turbulence_of(const Spots *spots, int n, double omega)
+{
+    Quad sum = spot_vector(spots, 0);
+    double weight = omega;
+    for (int k = 1; k < n; k++, weight *= omega)
+        sum += spot_vector(spots, k) * weight;
+    return sum;
+}
+
 static Vec3 vector_turbulence(const Vec3 *p, int n, double omega, double lambda)
 {
     Spots spots;
-    if (!spots_set(&spots, p, 1, lambda, n))
-        return far_turbulence(p, n, omega, lambda);
-    Quad sum = spot_vector(&spots, 0);
-    double weight = omega;
-    for (int k = 1; k < n; k++, weight *= omega)
-        sum += spot_vector(&spots, k) * weight;
-    return vector_stored(sum);
+    return spots_set(&spots, p, 1, lambda, n) ? vector_stored(turbulence_of(&spots, n, omega)) : far_turbulence(p, n, omega, lambda);
+}
+
+AWAY static Vec3 displaced_far(const Vec3 *p, const Vec3 *amount, int n, double omega, double lambda)
+{
+    return add(*p, mul(*amount, far_turbulence(p, n, omega, lambda)));
+}
+
+static void displace(Vec3 *p, const Vec3 *amount, int n, double omega, double lambda)
+{
+    Spots spots;
+    if (spots_set(&spots, p, 1, lambda, n))
+        *p = vector_stored((Quad){ p->x, p->y, p->z, 0 } + (Quad){ amount->x, amount->y, amount->z, 0 } * turbulence_of(&spots, n, omega));
+    else
+        *p = displaced_far(p, amount, n, omega, lambda);
 }
 
 /* x and y of a vector: two thirds of the work. */
@@ -501,5 +542,5 @@ static void two_nearest(const NoiseCube *cube, const Vec3 *p, double square[2])
 const NoiseKernel ISA_NAME(noise_kernel)[1] = { {
     .value = value, .vector = vector, .octaves = octaves, .vector_octaves = vector_octaves,
     .two_nearest = TWO_NEAREST, .ridges = ridges, .turbulence = turbulence, .vector_turbulence = vector_turbulence,
-    .pair_turbulence = pair_turbulence,
+    .pair_turbulence = pair_turbulence, .displace = displace,
 } };

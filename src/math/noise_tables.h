@@ -28,6 +28,7 @@ typedef struct NoiseKernel {
     double (*turbulence)(int generator, const Vec3 *p, int octaves, double omega, double lambda);
     Vec3 (*vector_turbulence)(const Vec3 *p, int octaves, double omega, double lambda);
     Vec2 (*pair_turbulence)(const Vec3 *p, int octaves, double omega, double lambda);
+    void (*displace)(Vec3 *p, const Vec3 *amount, int octaves, double omega, double lambda);
 } NoiseKernel;
 
 /* One element each: a name that is an address fits CPU_TABLE. */

@@ -11,7 +11,7 @@ static const double PATTERN_FAR = 1e17;        /* points beyond are moved here, 
 static inline bool pattern_reaches(Vec3 p) { return fabs(p.x) <= PATTERN_FAR && fabs(p.y) <= PATTERN_FAR && fabs(p.z) <= PATTERN_FAR; }
 
 /* The whole chain (07, section 3), with or without its turbulence record; for one point or for many. */
-Vec3 chain_apply(const WarpChain *chain, bool turbulence, Vec3 p);
+void chain_apply(const WarpChain *chain, bool turbulence, const Vec3 *from, Vec3 *to);
 void chain_apply_many(const WarpChain *chain, bool turbulence, Vec3 *p, int n);
 
 static inline bool pattern_has_own_turbulence(const Pattern *pattern)
@@ -21,12 +21,20 @@ static inline bool pattern_has_own_turbulence(const Pattern *pattern)
 
 /* Where the pattern, its map entries and its list items see p: the chain, without the turbulence record for patterns that use it in
  * their own formula alone (marble, wood). */
-static inline Vec3 pattern_point(const Pattern *pattern, Vec3 p)
+static inline void pattern_place(const Pattern *pattern, const Vec3 *p, Vec3 *out)
 {
     const WarpChain *chain = &pattern->chain;
-    if (chain->n == 0 && !chain->has_turbulence && pattern_reaches(p))
-        return p;
-    return chain_apply(chain, !pattern_has_own_turbulence(pattern), p);
+    if (chain->n == 0 && !chain->has_turbulence && pattern_reaches(*p))
+        *out = *p;
+    else
+        chain_apply(chain, !pattern_has_own_turbulence(pattern), p, out);
+}
+
+static inline Vec3 pattern_point(const Pattern *pattern, Vec3 p)
+{
+    Vec3 out;
+    pattern_place(pattern, &p, &out);
+    return out;
 }
 
 /* At a point that went through pattern_point; after frequency, phase and wave. */

@@ -3,12 +3,10 @@
 #include "pattern/pattern.h"
 #include "pattern/wave.h"
 
-/* Inline: a pair of numbers just stored one by one cannot be loaded as one soon, as calls with points would have it. */
-static inline __attribute__((always_inline)) Vec3 turbulent(const Turbulence *t, const Vec3 p)
+static inline void turbulent(const Turbulence *t, Vec3 *p)
 {
-    if (t->amount.x == 0 && t->amount.y == 0 && t->amount.z == 0)
-        return p;
-    return add(p, mul(t->amount, noise_vector_turbulence(&p, t->octaves, (double)t->omega, (double)t->lambda)));
+    if (t->amount.x != 0 || t->amount.y != 0 || t->amount.z != 0)
+        noise_displace(p, &t->amount, t->octaves, (double)t->omega, (double)t->lambda);
 }
 
 static Vec3 repeat(const Warp *w, Vec3 p)
@@ -139,11 +137,11 @@ static Vec3 cubic(Vec3 p)
     return vec3(1 - middle(x / az) / 4, 1.0 / 3 + middle(y / az) / 3, az);
 }
 
-static Vec3 warped(const Warp *w, Vec3 p)
+static __attribute__((noinline)) Vec3 warped(const Warp *w, Vec3 p)
 {
     switch (w->kind) {
     case WARP_TRANSFORM: return affine_point_back(&w->transform, p);
-    case WARP_TURBULENCE: return turbulent(&w->turbulence, p);
+    case WARP_TURBULENCE: turbulent(&w->turbulence, &p); break;
     case WARP_REPEAT: return repeat(w, p);
     case WARP_BLACK_HOLE: return black_hole(w, p);
     case WARP_PLANAR: return orient(w->mapped.orientation, p.x, p.y, w->mapped.distance);
@@ -160,18 +158,24 @@ static double limited(double x)
     return x > PATTERN_FAR ? PATTERN_FAR : x < -PATTERN_FAR ? -PATTERN_FAR : x;
 }
 
-static inline Vec3 within_limits(Vec3 p)
+static inline void keep_within_limits(Vec3 *p)
 {
-    return pattern_reaches(p) ? p : vec3(limited(p.x), limited(p.y), limited(p.z));
+    if (!pattern_reaches(*p))
+        *p = vec3(limited(p->x), limited(p->y), limited(p->z));
 }
 
-Vec3 chain_apply(const WarpChain *chain, bool turbulence, Vec3 p)
+/* The point stays in registers for its transforms: a pair of numbers just stored one by one cannot soon be loaded as one. */
+void chain_apply(const WarpChain *chain, bool turbulence, const Vec3 *from, Vec3 *to)
 {
+    Vec3 p = *from;
     for (uint32_t i = 0; i < chain->n; i++) {
         const Warp *w = &chain->warp[i];
         p = w->kind == WARP_TRANSFORM ? affine_point_back(&w->transform, p) : warped(w, p);
     }
-    return within_limits(turbulence && chain->has_turbulence ? turbulent(&chain->turbulence, p) : p);
+    *to = p;
+    if (turbulence && chain->has_turbulence)
+        turbulent(&chain->turbulence, to);
+    keep_within_limits(to);
 }
 
 /* Warp by warp: what each one needs is loaded once for all points. */
@@ -186,6 +190,9 @@ void chain_apply_many(const WarpChain *chain, bool turbulence, Vec3 *p, int n)
             for (int i = 0; i < n; i++)
                 p[i] = warped(w, p[i]);
     }
-    for (int i = 0; i < n; i++)
-        p[i] = within_limits(turbulence && chain->has_turbulence ? turbulent(&chain->turbulence, p[i]) : p[i]);
+    for (int i = 0; i < n; i++) {
+        if (turbulence && chain->has_turbulence)
+            turbulent(&chain->turbulence, &p[i]);
+        keep_within_limits(&p[i]);
+    }
 }

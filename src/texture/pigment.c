@@ -44,7 +44,10 @@ ALONE static Colour in_pigment_map(const BlendMap *map, double v, const PatternP
 
 Colour pigment_patterned(const Pigment *pigment, const Vec3 *p, const TextureContext *at)
 {
-    PatternPoint point = { pattern_point(pigment->pattern, *p), pigment->pattern, at };
+    PatternPoint point;
+    point.pattern = pigment->pattern;
+    point.context = at;
+    pattern_place(pigment->pattern, p, &point.p);
     double v = pattern_value(&point);
     BlendMap map = map_of(pigment);
     if (map.kind != MAP_COLOUR)

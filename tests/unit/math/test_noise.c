@@ -104,6 +104,14 @@ static void octaves_and_instruction_sets_give_the_same_bits(void **state)
         assert_memory_equal(&v, &w, sizeof v);
         Vec2 pair = base->pair_turbulence(&p, 6, 0.5, 2), two = best->pair_turbulence(&p, 6, 0.5, 2);
         assert_true(pair.u == v.x && pair.v == v.y && two.u == v.x && two.v == v.y);
+        const Vec3 amount = { 0.5, -3, i % 3 };
+        Vec3 moved = p, moved_best = p, sum = add(p, mul(amount, v));
+        base->displace(&moved, &amount, 6, 0.5, 2);
+        best->displace(&moved_best, &amount, 6, 0.5, 2);
+        if (!isnan(p.z)) {
+            assert_memory_equal(&moved, &sum, sizeof sum);
+            assert_memory_equal(&moved_best, &sum, sizeof sum);
+        }
         w = base->vector(&p);
         for (int k = 1; k < 6; k++) {                      /* octaves that come back from afar */
             Vec3 q = scaled(p, ldexp(1, -k));
