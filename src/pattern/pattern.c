@@ -26,15 +26,15 @@ static double wave_value(const Pattern *pattern, double v)
  * differences: the same bits. */
 static inline double within_turn(double v)
 {
-    static const double turn = 1.00001, high = 0x1.00008p0, low = 1.00001 - 0x1.00008p0;
+    static const double turn = 1.00001, per_turn = 1 / 1.00001, high = 0x1.00008p0, low = 1.00001 - 0x1.00008p0;
     double x = fabs(v);
     if (x < turn)
         return v;
     if (!(x < 0x1p20))
         return fmod(v, turn);
-    double n = (double)(int)(x / turn), rest = x - n * high - n * low;
+    double n = (double)(int)(x * per_turn), rest = x - n * high - n * low;
     if (rest < 0)
-        rest += turn;                          /* the quotient was rounded up to a whole number */
+        rest += turn;                          /* per_turn is rounded up: the quotient can be too large, never too small */
     return v < 0 ? -rest : rest;
 }
 

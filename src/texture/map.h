@@ -20,8 +20,8 @@ static inline MapSpot map_find(const MapEntry *entry, uint32_t n, double v)
         i++;
     if (i == 0 || v == (double)entry[i].key)
         return (MapSpot){ NULL, &entry[i], 1 };
-    double low = (double)entry[i - 1].key, high = (double)entry[i].key;
-    return (MapSpot){ &entry[i - 1], &entry[i], (v - low) / (high - low) };
+    double low = (double)entry[i - 1].key, width = (double)entry[i].key - low;
+    return (MapSpot){ &entry[i - 1], &entry[i], width == 1 ? v - low : (v - low) / width };    /* colours wait for a division */
 }
 
 /* A value of a list pattern is the number of its item. */
