@@ -13,11 +13,13 @@ typedef struct Penumbra {
     int columns;
     Ray ray;                                   /* starts as those to the samples do */
     uint32_t stamp;                            /* of samples that are known, and 1 if they are lit */
+    bool round;                                /* the grid is a disc */
     bool deep;                                 /* lit and dark ones differ */
     bool veiled;                               /* a sample is neither: all is in vain */
     int n;                                     /* samples to be asked, in the order in which they draw chance */
     uint32_t *sample[ASKED_MAX];
     double u[ASKED_MAX + FAN_RAYS], v[ASKED_MAX + FAN_RAYS];   /* area_cell of each; the rest is room */
+    f4 to_s, to_r, middle;                     /* cells are numbers of a Sight times this, off by the middle */
     Rgb share[5];                              /* the mean of four, by the number of lit ones */
     Glance glance;
 } Penumbra;
@@ -65,11 +67,8 @@ static inline f4 singles(const double *x)      /* stored one by one: not to be r
 
 static uint32_t look_at_four(Penumbra *p, int first, uint32_t rays)
 {
-    const LightSource *def = p->a->light->def;
-    f4 middle = f4_set((float)area_middle(def));
-    f4 s = f4_sub(f4_mul(singles(&p->u[first]), f4_set(1 / (float)(def->size1 - 1))), middle);
-    f4 r = f4_sub(f4_mul(singles(&p->v[first]), f4_set(1 / (float)(def->size2 - 1))), middle);
-    if (def->circular || def->orient) {
+    f4 s = f4_sub(f4_mul(singles(&p->u[first]), p->to_s), p->middle), r = f4_sub(f4_mul(singles(&p->v[first]), p->to_r), p->middle);
+    if (p->round) {
         f4 distance = f4_sqrt(f4_add(f4_mul(s, s), f4_mul(r, r))), g = f4_div(f4_max(f4_abs(s), f4_abs(r)), distance);
         s = f4_mul(s, g);
         r = f4_mul(r, g);
@@ -170,6 +169,10 @@ bool penumbra_mean(const Area *a, Rgb *out)
     p.deep = area_differ(a->colour, dark);
     p.veiled = false;
     p.n = 0;
+    p.round = def->circular || def->orient;
+    p.to_s = f4_set(1 / (float)(def->size1 - 1));
+    p.to_r = f4_set(1 / (float)(def->size2 - 1));
+    p.middle = f4_set((float)area_middle(def));
     memset(p.u, 0, sizeof p.u);
     memset(p.v, 0, sizeof p.v);
     for (int i = 0; i <= 4; i++)

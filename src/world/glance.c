@@ -184,7 +184,7 @@ typedef struct Span {
 
 static inline f4 at_rays(const Plain *x, f4 s, f4 r)
 {
-    return f4_add(x->at, f4_add(f4_mul(x->by_s, s), f4_mul(x->by_r, r)));
+    return f4_add(f4_add(f4_mul(x->by_s, s), f4_mul(x->by_r, r)), x->at);
 }
 
 static inline void span_cut(Span *span, f4 enter, f4 leave)
@@ -193,7 +193,7 @@ static inline void span_cut(Span *span, f4 enter, f4 leave)
     span->leave = f4_min(leave, span->leave);
 }
 
-static void cut_by_slab(Span *span, const Slab *slab, f4 s, f4 r)
+static inline void cut_by_slab(Span *span, const Slab *slab, f4 s, f4 r)
 {
     f4 step = at_rays(&slab->step, s, r), inverse = f4_div(f4_set(1), step);
     f4 a = f4_mul(slab->lo, inverse), b = f4_mul(slab->hi, inverse);
@@ -201,7 +201,7 @@ static void cut_by_slab(Span *span, const Slab *slab, f4 s, f4 r)
     span_cut(span, f4_min(a, b), f4_max(a, b));
 }
 
-static void cut_by_round(Span *span, const Round *ball, int n, f4 s, f4 r)
+static inline void cut_by_round(Span *span, const Round *ball, int n, f4 s, f4 r)
 {
     f4 step[3], a = f4_set(0), b = f4_set(0), h2 = ball->radius2;
     for (int i = 0; i < n; i++) {
@@ -219,13 +219,15 @@ static void cut_by_round(Span *span, const Round *ball, int n, f4 s, f4 r)
     span_cut(span, f4_sub(middle, half), f4_add(middle, half));
 }
 
-static Span span_of(const Body *b, f4 s, f4 r)
+static inline Span span_of(const Body *b, f4 s, f4 r)
 {
     Span span = { f4_set(-INFINITY), f4_set(INFINITY), FAN_ALL };
     for (uint32_t i = 0; i < b->n_slabs; i++)
         cut_by_slab(&span, &b->slab[i], s, r);
-    if (b->round != 0)
-        cut_by_round(&span, &b->ball, b->round, s, r);
+    if (b->round == 3)
+        cut_by_round(&span, &b->ball, 3, s, r);
+    else if (b->round == 2)
+        cut_by_round(&span, &b->ball, 2, s, r);
     return span;
 }
 
@@ -236,7 +238,7 @@ typedef struct Looking {                       /* four rays */
     Span span[GLANCE_BODIES];
 } Looking;
 
-static const Span *look_at(Looking *l, uint32_t body)
+static inline const Span *look_at(Looking *l, uint32_t body)
 {
     if (!(l->known >> body & 1)) {
         l->span[body] = span_of(&l->g->body[body], l->s, l->r);
@@ -252,17 +254,17 @@ static inline uint32_t surely_before(f4 a, f4 b)
 
 typedef struct Meets { uint32_t surely, maybe; } Meets;
 
-/* Does the root at t count? */
-static Meets root_counts(Looking *l, const Sighted *prim, f4 t, Meets meets)
+/* Does the root at t count, of rays that meet the solid? */
+static inline Meets root_counts(Looking *l, const Sighted *prim, f4 t, Meets meets)
 {
-    f4 start = f4_set(0), end = f4_set(1);
-    meets.surely &= surely_before(start, t) & surely_before(t, end);
-    meets.maybe &= ~(surely_before(t, start) | surely_before(end, t));
+    f4 start = f4_set(0), end = f4_set(1), later = f4_add(t, f4_set(APART)), earlier = f4_sub(t, f4_set(APART));
+    meets.surely &= f4_lt(start, earlier) & f4_lt(later, end);
+    meets.maybe &= ~(f4_lt(later, start) | f4_lt(end, earlier));
     for (uint32_t i = 0; i < prim->n && meets.maybe != 0; i++) {
         uint32_t body = l->g->sibling[prim->first + i];
         const Span *span = look_at(l, body);
-        uint32_t in = span->sure & surely_before(span->enter, t) & surely_before(t, span->leave);
-        uint32_t out = span->sure & (surely_before(t, span->enter) | surely_before(span->leave, t));
+        uint32_t in = span->sure & f4_lt(span->enter, earlier) & f4_lt(later, span->leave);
+        uint32_t out = span->sure & (f4_lt(later, span->enter) | f4_lt(span->leave, earlier));
         bool inverse = l->g->body[body].inverse;
         meets.surely &= inverse ? out : in;
         meets.maybe &= ~(inverse ? in : out);
@@ -270,14 +272,22 @@ static Meets root_counts(Looking *l, const Sighted *prim, f4 t, Meets meets)
     return meets;
 }
 
-static Meets prim_is_met(Looking *l, const Sighted *prim)
+static inline Meets prim_is_met(Looking *l, const Sighted *prim)
 {
-    const Span span = *look_at(l, prim->body);
-    Meets line = { span.sure & surely_before(span.enter, span.leave), ~(span.sure & surely_before(span.leave, span.enter)) };
-    line.maybe &= FAN_ALL;
-    Meets enter = root_counts(l, prim, span.enter, line), leave = root_counts(l, prim, span.leave, line);
-    enter.maybe |= ~span.sure & FAN_ALL;
-    return (Meets){ enter.surely | leave.surely, enter.maybe | leave.maybe };
+    const Span *span = look_at(l, prim->body);
+    f4 enter = span->enter, leave = span->leave, start = f4_max(enter, f4_set(0)), end = f4_min(leave, f4_set(1));
+    uint32_t unsure = FAN_ALL & ~span->sure;
+    Meets within = { span->sure & surely_before(start, end), span->sure & ~surely_before(end, start) };
+    if (prim->n == 0) {
+        within.surely &= surely_before(f4_set(0), enter) | surely_before(leave, f4_set(1));
+        within.maybe &= ~(surely_before(enter, f4_set(0)) & surely_before(f4_set(1), leave));
+        within.maybe |= unsure;
+        return within;
+    }
+    if (within.maybe == 0)
+        return (Meets){ 0, unsure };
+    Meets in = root_counts(l, prim, enter, within), out = root_counts(l, prim, leave, within);
+    return (Meets){ in.surely | out.surely, in.maybe | out.maybe | unsure };
 }
 
 /* What hides all of them moves to the front: neighbours ask it first. */
