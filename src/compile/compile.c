@@ -166,9 +166,12 @@ static void end(Compile *c)
     TAKE(material, n_materials, material);
     TAKE(texture, n_textures, texture);
     TAKE(interior, n_interiors, interior);
-    for (uint32_t i = 0; i < w->n_prims; i++)
+    for (uint32_t i = 0; i < w->n_prims; i++) {
+        if (w->prim[i].ops->flags & SHAPE_FIRST_HITS)
+            w->features |= WORLD_HAS_FIRST_HITS;
         if (w->prim[i].flags & (PRIM_NO_SHADOW | PRIM_NO_IMAGE | PRIM_NO_REFLECTION | PRIM_NO_RADIOSITY))
             w->features |= WORLD_HAS_FLAGS;
+    }
     if (w->n_csg > 1)
         w->features |= WORLD_HAS_CSG;
     if (!c->geometry_only)

@@ -405,6 +405,6 @@ static Bounds extent(const void *params, const Affine *place)
 }
 
 const ShapeOps shape_isosurface = {
-    .keyword = "isosurface", .params_size = sizeof(Isosurface), .flags = SHAPE_HAS_OPEN, .parse = parse, .item = item,
+    .keyword = "isosurface", .params_size = sizeof(Isosurface), .flags = SHAPE_HAS_OPEN | SHAPE_FIRST_HITS, .parse = parse, .item = item,
     .compile = compile, .hits = hits, .inside = inside, .surface = surface, .extent = extent,
 };

@@ -305,6 +305,6 @@ static Bounds extent(const void *params, const Affine *place)
 }
 
 const ShapeOps shape_parametric = {
-    .keyword = "parametric", .params_size = sizeof(Params), .flags = SHAPE_PATCH | SHAPE_HAS_UV, .parse = parse, .item = item,
+    .keyword = "parametric", .params_size = sizeof(Params), .flags = SHAPE_PATCH | SHAPE_HAS_UV | SHAPE_FIRST_HITS, .parse = parse, .item = item,
     .compile = compile, .hits = hits, .surface = surface, .extent = extent,
 };

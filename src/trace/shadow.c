@@ -146,6 +146,7 @@ typedef struct Walk {
     Interiors in;
     double done;                               /* how far it has come */
     double clear;                              /* surfaces up to here coincide with the last one */
+    bool stepwise;                             /* a new ray begins behind each surface: some shapes tell only their first hits */
     bool in_air;                               /* fog and media of the air dim this light */
     Rgb colour;
 } Walk;
@@ -181,6 +182,11 @@ static void pass_surface(Walk *walk, const Hit *hit)
         interiors_remove(&walk->in, (uint32_t)place);
     else
         interiors_add(&walk->in, interior);
+    if (walk->stepwise) {
+        walk->ray = (Ray){ surface_offset(&surface, walk->ray.d), walk->ray.d, 0, walk->ray.t_max - hit->t };
+        walk->done = walk->clear = 0;
+        return;
+    }
     walk->done = hit->t;
     double slope = fabs(dot(surface.geometric, walk->ray.d));
     walk->clear = hit->t + 2 * surface.error / (slope > 0x1p-20 ? slope : 0x1p-20);
@@ -219,21 +225,24 @@ __attribute__((noinline)) static Rgb pass_veils(const Spot *spot, uint32_t light
     walk.t = spot->t;
     walk.ray = *ray;
     walk.done = walk.clear = 0;
+    walk.stepwise = (spot->t->world->features & WORLD_HAS_FIRST_HITS) != 0;
     walk.in_air = shadow_dims(spot->t, &spot->t->world->light[light]);
     walk.colour = colour;
     interiors_copy(&walk.in, spot->in);
     for (;;) {
         sort_hits(veils->hit, veils->n);
-        for (uint32_t i = 0; i < veils->n; i++) {
+        uint32_t n = walk.stepwise && veils->n > 0 ? 1 : veils->n;
+        for (uint32_t i = 0; i < n; i++) {
             if (veils->hit[i].t <= walk.clear)
                 continue;                      /* seen as one surface, as rays that go on from it see it */
             pass_surface(&walk, &veils->hit[i]);
             if (rgb_is_zero(walk.colour))
                 return walk.colour;
         }
-        if (!veils->overflowed)
+        if (walk.stepwise ? n == 0 : !veils->overflowed)
             break;
-        walk.ray.t_min = veils->hit[veils->n - 1].t;
+        if (!walk.stepwise)
+            walk.ray.t_min = veils->hit[veils->n - 1].t;
         if (!find_veils(walk.t, &walk.ray, light, among, veils))
             return rgb_grey(0);
     }

@@ -109,7 +109,8 @@ typedef struct Light {
 } Light;
 
 enum {                                         /* World.features */
-    WORLD_HAS_CSG = 1, WORLD_HAS_TRANSPARENT = 2, WORLD_HAS_REFLECTION = 4, WORLD_HAS_FLAGS = 8, WORLD_HAS_FOG = 16
+    WORLD_HAS_CSG = 1, WORLD_HAS_TRANSPARENT = 2, WORLD_HAS_REFLECTION = 4, WORLD_HAS_FLAGS = 8, WORLD_HAS_FOG = 16,
+    WORLD_HAS_FIRST_HITS = 32                  /* of shapes that tell only some of their hits */
 };
 
 struct World {
