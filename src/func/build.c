@@ -396,7 +396,7 @@ static uint16_t take_register(Emit *e)
         e->too_many = true;
         return 0;
     }
-    return (uint16_t)e->n_registers++;
+    return (uint16_t)(e->n_registers++ * CODE_ROW);
 }
 
 static void release(Emit *e, const FuncBuilder *b, uint32_t x, uint32_t now)
@@ -412,7 +412,12 @@ static void emit_node(Emit *e, uint32_t at)
     const FuncBuilder *b = e->b;
     const Node *n = &b->node.data[at];
     Instr i;
-    if (is_call(n->op)) {
+    if (n->op == FUNC_NOISE) {
+        const uint32_t *in = b->argument.data + n->a;
+        i = (Instr){ .op = FUNC_NOISE, .a = e->reg[in[0]], .b = e->reg[in[1]], .c = e->reg[in[2]], .callee = n->callee };
+        for (unsigned k = 0; k < 3; k++)
+            release(e, b, in[k], at);
+    } else if (is_call(n->op)) {
         i = (Instr){ .op = n->op, .a = (uint16_t)e->argument.n, .c = n->part, .n = n->n, .callee = n->callee };
         for (unsigned k = 0; k < n->n; k++)
             array_push(b->arena, &e->argument, e->reg[b->argument.data[n->a + k]]);
@@ -463,7 +468,7 @@ const Function *func_finish(FuncBuilder *b, FuncNode result)
     for (uint32_t i = 0; i < n; i++) {
         const Node *node = &b->node.data[i];
         if (node->op == FUNC_PARAMETER) {
-            e.reg[i] = (uint16_t)node->a;
+            e.reg[i] = (uint16_t)(node->a * CODE_ROW);
             e.last[i] = UINT32_MAX;            /* registers of parameters are not given away */
         } else if (e.uses[i] > 0 && !e.joined[i] && e.last[i] != 0) {
             emit_node(&e, i);

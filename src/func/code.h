@@ -9,7 +9,8 @@
 #include "func/func.h"
 
 enum { CODE_MAX_REGISTERS = 1200, CODE_MAX_ARGUMENTS = FUNC_MAX_PARAMETERS + 8, CODE_INLINE_LIMIT = 3000,
-       CODE_MAX_DEPTH = 32 };                   /* of calls that are not dissolved: each takes stack for its registers */
+       CODE_MAX_DEPTH = 32,                     /* of calls that are not dissolved: each takes stack for its registers */
+       CODE_ROW = sizeof(double) };             /* registers stand in code times this, their place where there is one lane */
 
 /* Instructions: dst = op(a, b, c), where a, b, c are registers and k is a number. Those after N_FUNC_OPS exist in code only. */
 enum {

@@ -272,23 +272,15 @@ static Piece choice(unsigned op, Piece a, Piece b, Piece c)
     return picked(always, b, picked(never, c, either));
 }
 
-static Piece call(const Function *f, const Instr *i, const Piece *r)
-{
-    const uint16_t *at = f->argument + i->a;
-    if (i->op == FUNC_NOISE)
-        return noise(&r[at[0]], &r[at[1]], &r[at[2]], *(const int *)i->callee);
-    return unknown(-INFINITY, INFINITY);
-}
-
 static Piece value_of(const Function *f, Piece *r)
 {
     for (const Instr *i = f->code; ; i++) {
-        const Piece *a = &r[i->a < f->n_registers ? i->a : 0], *b = &r[i->b], *c = &r[i->c];
+        const Piece *a = &r[i->a / CODE_ROW], *b = &r[i->b / CODE_ROW], *c = &r[i->c / CODE_ROW];
         Piece v;
         switch (i->op) {
         case CODE_END: return *a;
         case FUNC_NUMBER:                      /* not widened: powers ask whether it is one number */
-            r[i->dst] = isfinite(i->k) ? number(i->k) : unknown(-INFINITY, INFINITY);
+            r[i->dst / CODE_ROW] = isfinite(i->k) ? number(i->k) : unknown(-INFINITY, INFINITY);
             continue;
         case CODE_ADD_K: v = sum(*a, number(i->k)); break;
         case CODE_RSUB_K: v = sum(number(i->k), negative(*a)); break;
@@ -298,10 +290,11 @@ static Piece value_of(const Function *f, Piece *r)
         case CODE_MUL_SUB: v = sum(product(*a, *b), negative(*c)); break;
         case CODE_SUB_MUL: v = sum(*c, negative(product(*a, *b))); break;
         case FUNC_IF_NEGATIVE: case FUNC_IF_ZERO: v = choice(i->op, *a, *b, *c); break;
-        case FUNC_SUM: case FUNC_PROD: case FUNC_CALL: case FUNC_HOST: case FUNC_NATIVE: case FUNC_NOISE: v = call(f, i, r); break;
+        case FUNC_SUM: case FUNC_PROD: case FUNC_CALL: case FUNC_HOST: case FUNC_NATIVE: v = unknown(-INFINITY, INFINITY); break;
+        case FUNC_NOISE: v = noise(a, b, c, *(const int *)i->callee); break;
         default: v = i->op == CODE_SQUARE || i->op < FUNC_ADD ? unary(i->op, *a) : binary(i, *a, *b); break;
         }
-        r[i->dst] = widened(v);
+        r[i->dst / CODE_ROW] = widened(v);
     }
 }
 
