@@ -253,6 +253,7 @@ typedef struct Emit {
     uint16_t *reg;
     bool *joined;                              /* a product that its sum computes, or a number that stands in instructions */
     bool *turns;                               /* only sines and cosines of whole multiples are taken: whole turns do not matter */
+    bool *squared;                             /* only squares are taken: smooth where a kink is 0 */
     ARRAY(Instr) code;
     ARRAY(uint16_t) argument;
     ARRAY(uint16_t) free;
@@ -313,6 +314,32 @@ static void find_turns(Emit *e, FuncNode result)
         for (unsigned k = 0; is_call(n->op) && k < n->n; k++)
             e->turns[b->argument.data[n->a + k]] = false;
     }
+}
+
+static void find_squared(Emit *e, FuncNode result)
+{
+    const FuncBuilder *b = e->b;
+    memset(e->squared, 1, b->node.n);
+    e->squared[result] = false;
+    for (uint32_t i = 0; i < b->node.n; i++) {
+        const Node *n = &b->node.data[i];
+        if (e->uses[i] == 0)
+            continue;
+        const uint32_t operand[3] = { n->a, n->b, n->c };
+        for (unsigned k = 0; k < operands(n); k++)
+            e->squared[operand[k]] = e->squared[operand[k]] && n->op == FUNC_MUL && n->a == n->b;
+        for (unsigned k = 0; is_call(n->op) && k < n->n; k++)
+            e->squared[b->argument.data[n->a + k]] = false;
+    }
+}
+
+/* Is a kink or a jump of node i none to those who read it? */
+static bool is_eased(const Emit *e, uint32_t i)
+{
+    const Node *n = &e->b->node.data[i];
+    double v;
+    bool from_zero = n->op == FUNC_ABS || ((n->op == FUNC_MIN || n->op == FUNC_MAX) && func_is_number(e->b, n->b, &v) && v == 0);
+    return n->op == FUNC_ATAN2 ? e->turns[i] : from_zero && e->squared[i];
 }
 
 static bool is_product(const Emit *e, FuncNode x)
@@ -434,7 +461,7 @@ static void emit_node(Emit *e, uint32_t at)
             *to[k] = e->reg[in[k]];
         for (unsigned k = 0; k < inputs(i.op); k++)
             release(e, b, in[k], at);
-        i.n = i.op == FUNC_ATAN2 && e->turns[at];
+        i.n = is_eased(e, at);
     }
     i.dst = e->reg[at] = take_register(e);
     array_push(b->arena, &e->code, i);
@@ -462,8 +489,10 @@ const Function *func_finish(FuncBuilder *b, FuncNode result)
     e.reg = arena_array(b->arena, uint16_t, n);
     e.joined = arena_array(b->arena, bool, n);
     e.turns = arena_array(b->arena, bool, n);
+    e.squared = arena_array(b->arena, bool, n);
     count_uses(&e, result);
     find_turns(&e, result);
+    find_squared(&e, result);
     plan(&e, result);
     for (uint32_t i = 0; i < n; i++) {
         const Node *node = &b->node.data[i];

@@ -10,6 +10,7 @@
 
 enum { CODE_MAX_REGISTERS = 1200, CODE_MAX_ARGUMENTS = FUNC_MAX_PARAMETERS + 8, CODE_INLINE_LIMIT = 3000,
        CODE_MAX_DEPTH = 32,                     /* of calls that are not dissolved: each takes stack for its registers */
+       CODE_MAX_ROWS = 200,                     /* of functions looked at piece by piece: 256 bytes of stack each */
        CODE_ROW = sizeof(double) };             /* registers stand in code times this, their place where there is one lane */
 
 /* Instructions: dst = op(a, b, c), where a, b, c are registers and k is a number. Those after N_FUNC_OPS exist in code only. */
@@ -28,7 +29,8 @@ enum {
 
 typedef struct Instr {
     uint16_t op, dst, a, b, c, n;              /* SUM ... NATIVE: n arguments, registers argument[a ...]; c: part.
-                                                * ATAN2: n not 0 if whole turns do not matter */
+                                                * ATAN2: n not 0 if whole turns do not matter; ABS, and MIN and MAX
+                                                * with 0: if kinks at 0 do not matter */
     union { double k; const void *callee; };   /* Function, FuncHost, FuncNative; NOISE: const int, the generator */
 } Instr;
 

@@ -49,6 +49,17 @@ bool func_is_cheap(const Function *f)
     return true;
 }
 
+/* What asks others is unknown, unless only to choose or to limit. */
+bool func_is_bounded(const Function *f)
+{
+    bool asks = f->host != NULL || f->n_registers > CODE_MAX_ROWS, chooses = false;
+    for (const Instr *i = f->code; f->host == NULL && i->op != CODE_END; i++) {
+        asks = asks || (i->op >= FUNC_SUM && i->op <= FUNC_NATIVE);
+        chooses = chooses || (i->op >= FUNC_EQ && i->op <= FUNC_OR) || (i->op >= FUNC_MIN && i->op <= FUNC_IF_ZERO);
+    }
+    return !asks || chooses;
+}
+
 static double host_scalar(const FuncHost *host, const double *arguments)
 {
     double out[5] = { 0 };
@@ -124,9 +135,9 @@ void func_eval(const Function *f, const double *const *arguments, double *out, u
 void func_pieces(const Function *f, const double *start, const double *speed, const double at[FUNC_PIECES + 1],
                  FuncPieces *out)
 {
-    if (f->host != NULL) {
+    if (f->host != NULL || f->n_registers > CODE_MAX_ROWS) {
         for (int i = 0; i < FUNC_PIECES; i++)
-            out->first[i] = out->second[i] = INFINITY;
+            out->lo[i] = -(out->hi[i] = out->first[i] = out->second[i] = INFINITY);
     } else {
         piece_kernel->bounds(f, start, speed, at, out);
     }

@@ -29,10 +29,14 @@ void func_eval_vector(const Function *f, const double *const *arguments, double 
 /* Arithmetic and the like only, so that many lanes cost little more than one. */
 bool func_is_cheap(const Function *f);
 
-/* How steep and how curved is f at most on pieces of a line? The arguments are start[k] + t speed[k], piece i goes from t = at[i] to
- * at[i + 1], derivatives are by t. INFINITY: not known, or there is a kink or a jump. */
+/* May func_pieces know anything of f? */
+bool func_is_bounded(const Function *f);
+
+/* The range of f, and how steep and how curved it is at most, on pieces of a line. The arguments are start[k] + t speed[k], piece i goes
+ * from t = at[i] to at[i + 1], derivatives are by t. INFINITY: not known, or there is a kink or a jump; in both directions of the range:
+ * a value may be not a number. */
 enum { FUNC_PIECES = 8 };
-typedef struct FuncPieces { double first[FUNC_PIECES], second[FUNC_PIECES]; } FuncPieces;
+typedef struct FuncPieces { double lo[FUNC_PIECES], hi[FUNC_PIECES], first[FUNC_PIECES], second[FUNC_PIECES]; } FuncPieces;
 void func_pieces(const Function *f, const double *start, const double *speed, const double at[FUNC_PIECES + 1], FuncPieces *out);
 
 /* Something a function asks of another room. `call` must work from any thread; it fills `terms` numbers. `calls`, which may be

@@ -1,62 +1,73 @@
-/* piece_kernel.c - how steep and how curved a function can be on pieces of a line, as many pieces at once as there are lanes.
+/* piece_kernel.c - the range of a function, and how steep and how curved it can be, on pieces of a line, all pieces at once.
  *
  * Every register holds, per piece, the range of its values and bounds of its first and second derivative by the parameter of the
- * line; each instruction has its rule from calculus. INFINITY is what is not known, or a kink or a jump. Bounds are sums and products
- * of positive numbers, so their rounding is covered once, at the end; ranges are widened at every step. */
+ * line; each instruction has its rule from calculus, for one piece, and a loop over the pieces that the compiler turns into vector
+ * code. INFINITY is what is not known, or a kink or a jump. Sums, products and roots are rounded up and down alike wherever they are
+ * computed, so ranges hold for computed values as they stand, and only those of library functions are widened. Bounds are sums and
+ * products of positive numbers, so their rounding is covered once, at the end. */
 #include <math.h>
 #include <string.h>
 
 #include "func/code.h"
 
+#ifdef __clang__
+#define PIECE_LOOP _Pragma("clang loop unroll(disable)") for (int l = 0; l < FUNC_PIECES; l++)
+#else
+#define PIECE_LOOP _Pragma("GCC ivdep") _Pragma("GCC unroll 1") for (int l = 0; l < FUNC_PIECES; l++)
+#endif
 #define INLINE static inline __attribute__((always_inline))
 
-/* As wide as the processor's own vectors: gcc takes comparisons of wider ones apart. */
-#if defined(__AVX512F__)
-enum { WIDTH = 8 };
-#elif defined(__AVX2__)
-enum { WIDTH = 4 };
-#else
-enum { WIDTH = 2 };
-#endif
-typedef double Lanes __attribute__((vector_size(8 * WIDTH)));
-typedef int64_t Mask __attribute__((vector_size(8 * WIDTH)));
-
 typedef struct Piece {
-    Lanes lo, hi;                              /* of the value */
-    Lanes first, second;                       /* |derivative| is not more; never NaN */
-} Piece;
+    double lo, hi;                             /* of the value; -INFINITY to INFINITY: it may be not a number at all */
+    double first, second;                      /* |derivative| is not more */
+} Piece;                                       /* never NaN */
 
-enum { MAX_REGISTERS = 200 };                  /* of functions looked at: up to 256 bytes each on the stack */
+typedef FuncPieces Row;
 
-INLINE Lanes all(double v) { return (Lanes){ 0 } + v; }
-INLINE Lanes chosen(Mask m, Lanes a, Lanes b) { return (Lanes)((m & (Mask)a) | (~m & (Mask)b)); }
-INLINE Lanes lesser(Lanes a, Lanes b) { return chosen(a < b, a, b); }
-INLINE Lanes greater(Lanes a, Lanes b) { return chosen(a > b, a, b); }
-INLINE Lanes magnitude(Lanes a) { return (Lanes)((Mask)a & INT64_MAX); }
-INLINE Lanes largest(const Piece *a) { return greater(magnitude(a->lo), magnitude(a->hi)); }
-INLINE Lanes known(Lanes bound) { return chosen(bound == bound, bound, all(INFINITY)); }      /* 0 times INFINITY */
+static const double UNIT = 1 + 0x1p-50;        /* sines are not above */
 
-INLINE Lanes root(Lanes a)
+/* Does instruction i and all that follow; gives the row of the value. */
+typedef const Row *Step(const Instr *i, Row *r);
+static Step *const steps[N_CODE_OPS];
+
+INLINE Row *row_of(Row *r, unsigned reg) { return (Row *)((char *)r + reg * (sizeof(Row) / CODE_ROW)); }
+INLINE Piece at(const Row *r, int l) { return (Piece){ r->lo[l], r->hi[l], r->first[l], r->second[l] }; }
+
+INLINE void put(Row *r, int l, Piece v)
 {
-    Lanes out;
-    for (int i = 0; i < WIDTH; i++)
-        out[i] = __builtin_sqrt(a[i]);
-    return out;
+    r->lo[l] = v.lo;
+    r->hi[l] = v.hi;
+    r->first[l] = v.first;
+    r->second[l] = v.second;
 }
 
-INLINE Piece number(double v)
+INLINE double lesser(double a, double b) { return a < b ? a : b; }
+INLINE double greater(double a, double b) { return a > b ? a : b; }
+INLINE double largest(Piece a) { return greater(fabs(a.lo), fabs(a.hi)); }
+
+/* NaN is as good as nothing. */
+INLINE double known(double bound) { return lesser(bound, INFINITY); }
+INLINE double low(double v) { return greater(v, -INFINITY); }
+INLINE double high(double v) { return lesser(v, INFINITY); }
+
+/* Wide enough for the rounding of a library function or two. */
+INLINE double below(double v) { return v - fabs(v) * 0x1p-50; }
+INLINE double above(double v) { return v + fabs(v) * 0x1p-50; }
+
+INLINE Piece number(double v) { return (Piece){ v, v, 0, 0 }; }
+INLINE Piece unknown(double lo, double hi) { return (Piece){ lo, hi, INFINITY, INFINITY }; }
+INLINE Piece constant(double k) { return isfinite(k) ? number(k) : unknown(-INFINITY, INFINITY); }
+
+INLINE Piece picked(bool m, Piece a, Piece b)
 {
-    return (Piece){ all(v), all(v), all(0), all(0) };
+    return (Piece){ m ? a.lo : b.lo, m ? a.hi : b.hi, m ? a.first : b.first, m ? a.second : b.second };
 }
 
-INLINE Piece unknown(double lo, double hi)
+/* v from a, but where a may be not a number. */
+INLINE Piece unless_lost(Piece a, Piece v)
 {
-    return (Piece){ all(lo), all(hi), all(INFINITY), all(INFINITY) };
-}
-
-INLINE Piece picked(Mask m, Piece a, Piece b)
-{
-    return (Piece){ chosen(m, a.lo, b.lo), chosen(m, a.hi, b.hi), chosen(m, a.first, b.first), chosen(m, a.second, b.second) };
+    bool lost = (a.lo == -INFINITY) & (a.hi == INFINITY);
+    return (Piece){ lost ? -INFINITY : v.lo, lost ? INFINITY : v.hi, v.first, v.second };
 }
 
 INLINE Piece negative(Piece a)
@@ -66,19 +77,23 @@ INLINE Piece negative(Piece a)
 
 INLINE Piece sum(Piece a, Piece b)
 {
-    return (Piece){ a.lo + b.lo, a.hi + b.hi, a.first + b.first, a.second + b.second };
+    return (Piece){ low(a.lo + b.lo), high(a.hi + b.hi), a.first + b.first, a.second + b.second };
+}
+
+INLINE Piece difference(Piece a, Piece b)
+{
+    return sum(a, negative(b));
 }
 
 INLINE Piece multiple(Piece a, double k)
 {
-    Lanes size = all(fabs(k));
-    Piece v = { a.lo * k, a.hi * k, known(a.first * size), known(a.second * size) };
-    return k < 0 ? (Piece){ v.hi, v.lo, v.first, v.second } : v;
+    double p = a.lo * k, q = a.hi * k, size = fabs(k);
+    return (Piece){ low(k < 0 ? q : p), high(k < 0 ? p : q), known(a.first * size), known(a.second * size) };
 }
 
 INLINE Piece product(Piece a, Piece b)
 {
-    Lanes p = a.lo * b.lo, q = a.lo * b.hi, r = a.hi * b.lo, s = a.hi * b.hi, u = largest(&a), v = largest(&b), any = p + q + r + s;
+    double p = a.lo * b.lo, q = a.lo * b.hi, r = a.hi * b.lo, s = a.hi * b.hi, u = largest(a), v = largest(b), any = p + q + r + s;
     Piece out = { lesser(lesser(p, q), lesser(r, s)), greater(greater(p, q), greater(r, s)), known(u * b.first + a.first * v),
                   known(u * b.second + 2 * a.first * b.first + a.second * v) };
     return picked(any == any, out, unknown(-INFINITY, INFINITY));
@@ -86,238 +101,245 @@ INLINE Piece product(Piece a, Piece b)
 
 INLINE Piece square(Piece a)
 {
-    Lanes least = chosen(a.lo > 0, a.lo, chosen(a.hi < 0, a.hi, all(0))), most = largest(&a);
-    return (Piece){ least * least, most * most, known(2 * most * a.first), known(2 * (a.first * a.first + most * a.second)) };
+    double least = a.lo > 0 ? a.lo : a.hi < 0 ? a.hi : 0, most = largest(a);
+    Piece out = { least * least, most * most, known(2 * most * a.first), known(2 * (a.first * a.first + most * a.second)) };
+    return unless_lost(a, out);
 }
 
 /* g(a) where g' and g'' stay within first and second. */
-INLINE Piece through(Piece a, Lanes lo, Lanes hi, Lanes first, Lanes second)
+INLINE Piece through(Piece a, double lo, double hi, double first, double second)
 {
     return (Piece){ lo, hi, known(first * a.first), known(first * a.second + second * a.first * a.first) };
 }
 
+/* Quotients come out as products with it, so its range is widened. */
 INLINE Piece reciprocal(Piece a)
 {
-    Lanes q = chosen(a.lo > 0, 1 / a.lo, -1 / a.hi);           /* the largest magnitude */
-    Piece out = through(a, 1 / a.hi, 1 / a.lo, q * q, 2 * q * q * q);
+    double q = a.lo > 0 ? 1 / a.lo : -1 / a.hi;                /* the largest magnitude */
+    Piece out = through(a, below(1 / a.hi), above(1 / a.lo), q * q, 2 * q * q * q);
     return picked((a.lo > 0) | (a.hi < 0), out, unknown(-INFINITY, INFINITY));
 }
 
-/* A sum of squares comes out a little below 0 at worst; what may really be negative gives NaN, which no range holds. */
+/* A sum of squares comes out a little below 0 at worst; what may really be negative gives NaN. */
 INLINE Piece square_root(Piece a)
 {
-    Lanes lo = root(greater(a.lo, all(0))), hi = root(greater(a.hi, all(0))), m = 0.5 / lo;
-    Piece out = through(a, lo, hi, m, m * 0.5 / greater(a.lo, all(0)));
-    return picked(a.lo < -0x1p-40 * a.hi - 0x1p-900, unknown(-INFINITY, INFINITY), out);
+    double from = greater(a.lo, 0), lo = sqrt(from), hi = sqrt(greater(a.hi, 0)), m = 0.5 / lo;
+    Piece out = through(a, lo, hi, m, m * 0.5 / from);
+    return picked((a.lo < -0x1p-40 * a.hi - 0x1p-900) | (a.lo == -INFINITY), unknown(-INFINITY, INFINITY), out);
 }
 
-INLINE Piece absolute(Piece a)
+/* A kink at 0 is smooth again if only the square is taken. */
+INLINE Piece absolute(Piece a, bool squared)
 {
-    Piece kinked = { all(0), largest(&a), a.first, all(INFINITY) };
-    return picked(a.lo >= 0, a, picked(a.hi <= 0, negative(a), kinked));
+    Piece kinked = { 0, largest(a), a.first, squared ? a.second : INFINITY };
+    return unless_lost(a, picked(a.lo >= 0, a, picked(a.hi <= 0, negative(a), kinked)));
 }
 
-/* The lesser of two, which may cross. */
-INLINE Piece lesser_of(Piece a, Piece b)
+/* The greater of two, which may cross: b if a is not a number. b is 0 if `squared`. */
+INLINE Piece greater_of(Piece a, Piece b, bool squared)
 {
-    Piece either = { lesser(a.lo, b.lo), lesser(a.hi, b.hi), greater(a.first, b.first), all(INFINITY) };
-    return picked(a.hi < b.lo, a, picked(b.hi < a.lo, b, either));
+    Piece either = { greater(a.lo, b.lo), greater(a.hi, b.hi), greater(a.first, b.first), squared ? a.second : INFINITY };
+    return unless_lost(b, picked(a.lo > b.hi, a, picked(b.lo > a.hi, b, either)));
+}
+
+INLINE Piece lesser_of(Piece a, Piece b, bool squared)
+{
+    return negative(greater_of(negative(a), negative(b), squared));
 }
 
 /* atan2(a, b); `turns`: of its value only sines and cosines of whole multiples are taken, so that the jump by a turn is none. */
 INLINE Piece angle(Piece a, Piece b, bool turns)
 {
     Piece u = square(a), v = square(b);
-    Lanes r2 = u.lo + v.lo, p = largest(&a), q = largest(&b), across = p * b.first + q * a.first;
-    Piece out = { all(-3.2), all(3.2), known(across / r2),
+    double r2 = u.lo + v.lo, p = largest(a), q = largest(b), across = p * b.first + q * a.first;
+    Piece out = { -3.2, 3.2, known(across / r2),
                   known((q * a.second + p * b.second) / r2 + 2 * across * (p * a.first + q * b.first) / (r2 * r2)) };
-    Mask jumps = (b.lo < 0) & (a.lo <= 0) & (a.hi >= 0);
-    return turns ? out : picked(jumps, unknown(-3.2, 3.2), out);
+    bool jumps = !turns & (b.lo < 0) & (a.lo <= 0) & (a.hi >= 0);
+    return unless_lost(a, unless_lost(b, picked(jumps, unknown(-3.2, 3.2), out)));
 }
 
-/* By the C library, piece by piece; g grows and is defined from `from` on. */
-INLINE void ends(double (*g)(double), const Piece *a, double from, Lanes *lo, Lanes *hi)
+/* By the C library; g grows and is defined from `from` on. */
+INLINE void ends(double (*g)(double), Piece a, double from, double *lo, double *hi)
 {
-    for (int i = 0; i < WIDTH; i++) {
-        bool inside = a->lo[i] > from;
-        (*lo)[i] = inside ? g(a->lo[i]) : -INFINITY;
-        (*hi)[i] = inside ? g(a->hi[i]) : INFINITY;
-    }
+    bool inside = a.lo > from;
+    *lo = low(inside ? below(g(a.lo)) : -INFINITY);
+    *hi = high(inside ? above(g(a.hi)) : INFINITY);
 }
 
-static Piece exponential(Piece a)
+INLINE Piece exponential(Piece a)
 {
-    Lanes lo, hi;
-    ends(exp, &a, -INFINITY, &lo, &hi);
+    double lo, hi;
+    ends(exp, a, -INFINITY, &lo, &hi);
     return through(a, lo, hi, hi, hi);
 }
 
-static Piece logarithm(Piece a)
+INLINE Piece logarithm(Piece a)
 {
-    Lanes lo, hi, m = 1 / greater(a.lo, all(0));
-    ends(log, &a, 0, &lo, &hi);
+    double lo, hi, m = 1 / greater(a.lo, 0);
+    ends(log, a, 0, &lo, &hi);
     return through(a, lo, hi, m, m * m);
 }
 
 /* For positive a and a number b. */
-static Piece power(Piece a, Piece b)
+INLINE Piece power(Piece a, Piece b)
 {
-    double k = b.lo[0];
-    if (!(k == b.hi[0]))
+    double k = b.lo, u = pow(a.lo, k), v = pow(a.hi, k);
+    if (!(k == b.hi && a.lo > 0 && a.hi < INFINITY))
         return unknown(-INFINITY, INFINITY);
-    Lanes u, v;
-    for (int i = 0; i < WIDTH; i++) {
-        u[i] = pow(a.lo[i], k);
-        v[i] = pow(a.hi[i], k);
-    }
-    Lanes first = fabs(k) * greater(u / a.lo, v / a.hi), second = fabs(k * (k - 1)) * greater(u / (a.lo * a.lo), v / (a.hi * a.hi));
-    return picked((a.lo > 0) & (a.hi < INFINITY), through(a, lesser(u, v), greater(u, v), first, second), unknown(-INFINITY, INFINITY));
+    double first = fabs(k) * greater(u / a.lo, v / a.hi), second = fabs(k * (k - 1)) * greater(u / (a.lo * a.lo), v / (a.hi * a.hi));
+    return through(a, below(lesser(u, v)), above(greater(u, v)), first, second);
 }
 
-/* floor and its kin: no slope while the whole number is one. */
-INLINE Piece stepped(Piece a, double (*g)(double))
+/* floor and its kin, at the ends: no slope while the whole number is one. */
+INLINE Piece stepped(double lo, double hi)
 {
-    Piece out = unknown(-INFINITY, INFINITY);
-    for (int i = 0; i < WIDTH; i++) {
-        out.lo[i] = g(a.lo[i]);
-        out.hi[i] = g(a.hi[i]);
-    }
-    Mask same = out.lo == out.hi;
-    out.first = chosen(same, all(0), out.first);
-    out.second = out.first;
-    return out;
+    double slope = lo == hi ? 0 : INFINITY;
+    return (Piece){ low(lo), high(hi), slope, slope };
 }
 
-static Piece remainder_of(Piece a, Piece b)
+INLINE Piece remainder_of(Piece a, Piece b)
 {
-    double n = b.lo[0];
-    if (!(n == b.hi[0] && n > 0))
+    double n = b.lo;
+    if (!(n == b.hi && n > 0))
         return unknown(-INFINITY, INFINITY);
-    Piece turns = stepped(multiple(a, 1 / n), trunc);
+    Piece whole = multiple(a, 1 / n), turns = stepped(trunc(below(whole.lo)), trunc(above(whole.hi)));
     Piece moved = sum(a, multiple(turns, -n));
-    return picked((turns.lo == turns.hi) & (magnitude(a.lo) < 1e9) & (magnitude(a.hi) < 1e9), moved, unknown(-n, n));
+    double most = largest(a), margin = most * 0x1p-50;
+    bool sure = (turns.lo == turns.hi) & (most < 1e9);
+    moved.lo -= margin;
+    moved.hi += margin;
+    return unless_lost(a, picked(sure, moved, unknown(-n, n)));
 }
 
 /* `holds` and `fails` say what is sure. */
-INLINE Piece compared(Mask holds, Mask fails)
+INLINE Piece compared(bool holds, bool fails)
 {
-    return picked(holds, number(1), picked(fails, number(0), unknown(0, 1)));
+    double sure = holds | fails ? 0 : INFINITY;
+    return (Piece){ holds ? 1 : 0, fails ? 0 : 1, sure, sure };
+}
+
+INLINE Piece chosen(bool always, bool never, Piece b, Piece c)
+{
+    Piece either = { lesser(b.lo, c.lo), greater(b.hi, c.hi), INFINITY, INFINITY };
+    return picked(always, b, picked(never, c, either));
 }
 
 /* Slope and curvature of noise: the greatest that any numbers of its table could give at the corners of a cell. Generators 1
  * and 3 are cut off at 0 and 1, where they have kinks; generator 2 hardly ever. Far out the lattice repeats with a jump. */
-static Piece noise(const Piece *a, const Piece *b, const Piece *c, int generator)
+INLINE Piece noise(Piece a, Piece b, Piece c, int generator)
 {
     const double slope = generator == 2 ? 2.02 : generator == 3 ? 1.76 : 4.12, bend = generator == 2 ? 10.1 : INFINITY;
-    Lanes speed = a->first * a->first + b->first * b->first + c->first * c->first;
-    Lanes turn = a->second * a->second + b->second * b->second + c->second * c->second;
-    Lanes far = greater(largest(a), greater(largest(b), largest(c)));
-    Piece out = { all(0), all(1), slope * root(speed), known(bend * speed + slope * root(turn)) };
+    double speed = a.first * a.first + b.first * b.first + c.first * c.first;
+    double turn = a.second * a.second + b.second * b.second + c.second * c.second;
+    double far = greater(largest(a), greater(largest(b), largest(c)));
+    Piece out = { 0, 1, slope * sqrt(speed), known(bend * speed + slope * sqrt(turn)) };
     return picked(far < 1800, out, unknown(0, 1));
 }
 
-INLINE Piece widened(Piece a)
-{
-    Lanes lo = a.lo - magnitude(a.lo) * 0x1p-50 - 0x1p-1000, hi = a.hi + magnitude(a.hi) * 0x1p-50 + 0x1p-1000;
-    Mask sound = lo <= hi;                     /* not NaN */
-    return (Piece){ chosen(sound, lo, all(-INFINITY)), chosen(sound, hi, all(INFINITY)), a.first, a.second };
-}
+/* ---- one step for each operation, which ends in the call of the next one ---- */
 
-static Piece unary(unsigned op, Piece a)
-{
-    const Lanes one = all(1);
-    switch (op) {
-    case FUNC_NEG: return negative(a);
-    case FUNC_ABS: return absolute(a);
-    case FUNC_FLOOR: return stepped(a, floor);
-    case FUNC_CEIL: return stepped(a, ceil);
-    case FUNC_INT: return stepped(a, trunc);
-    case FUNC_SQRT: return square_root(a);
-    case FUNC_EXP: return exponential(a);
-    case FUNC_LN: return logarithm(a);
-    case FUNC_LOG: return multiple(logarithm(a), 0.43429448190325182765);
-    case FUNC_SIN: case FUNC_COS: return through(a, -one, one, one, one);
-    case FUNC_ATAN: return through(a, -1.6 * one, 1.6 * one, one, one);
-    case FUNC_TANH: return through(a, -one, one, one, one);
-    case CODE_SQUARE: return square(a);
-    default: return unknown(-INFINITY, INFINITY);
+#define STEP(name, operands, value)                                                                                    \
+    static const Row *name##_step(const Instr *i, Row *r)                                                              \
+    {                                                                                                                  \
+        Row *d = row_of(r, i->dst);                                                                                    \
+        const Row *x = row_of(r, i->a);                                                                                \
+        operands                                                                                                       \
+        PIECE_LOOP                                                                                                     \
+        {                                                                                                              \
+            Piece a = at(x, l);                                                                                        \
+            put(d, l, value);                                                                                          \
+        }                                                                                                              \
+        return steps[i[1].op](i + 1, r);                                                                               \
     }
+#define ONE(name, value) STEP(name, , value)
+#define TWO(name, value) STEP(name, const Row *y = row_of(r, i->b);, ({ Piece b = at(y, l); value; }))
+#define THREE(name, value)                                                                                               \
+    STEP(name, const Row *y = row_of(r, i->b); const Row *z = row_of(r, i->c);, ({ Piece b = at(y, l), c = at(z, l); value; }))
+#define STEPS                                                                                                          \
+    ONE(FUNC_NEG, negative(a))                                                                                         \
+    ONE(FUNC_FLOOR, stepped(floor(a.lo), floor(a.hi)))                                                                 \
+    ONE(FUNC_CEIL, stepped(ceil(a.lo), ceil(a.hi)))                                                                    \
+    ONE(FUNC_INT, stepped(trunc(a.lo), trunc(a.hi)))                                                                   \
+    ONE(FUNC_SQRT, square_root(a))                                                                                     \
+    ONE(FUNC_EXP, exponential(a))                                                                                      \
+    ONE(FUNC_LN, logarithm(a))                                                                                         \
+    ONE(FUNC_LOG, multiple(logarithm(a), 0.43429448190325182765))                                                      \
+    ONE(FUNC_SIN, unless_lost(a, through(a, -UNIT, UNIT, 1, 1)))                                                       \
+    ONE(FUNC_COS, unless_lost(a, through(a, -UNIT, UNIT, 1, 1)))                                                       \
+    ONE(FUNC_ATAN, unless_lost(a, through(a, -1.6, 1.6, 1, 1)))                                                        \
+    ONE(FUNC_TANH, unless_lost(a, through(a, -1, 1, 1, 1)))                                                            \
+    ONE(CODE_SQUARE, square(a))                                                                                        \
+    STEP(CODE_ADD_K, const Piece k = constant(i->k);, sum(a, k))                                                       \
+    STEP(CODE_RSUB_K, const Piece k = constant(i->k);, difference(k, a))                                               \
+    STEP(CODE_MUL_K, const double k = i->k;, multiple(a, k))                                                           \
+    STEP(CODE_RDIV_K, const double k = i->k;, multiple(reciprocal(a), k))                                              \
+    TWO(FUNC_ADD, sum(a, b))                                                                                           \
+    TWO(FUNC_SUB, difference(a, b))                                                                                    \
+    TWO(FUNC_MUL, product(a, b))                                                                                       \
+    TWO(FUNC_DIV, product(a, reciprocal(b)))                                                                           \
+    TWO(FUNC_LT, compared(a.hi < b.lo, a.lo >= b.hi))                                                                  \
+    TWO(FUNC_LE, compared(a.hi <= b.lo, a.lo > b.hi))                                                                  \
+    TWO(FUNC_GT, compared(a.lo > b.hi, a.hi <= b.lo))                                                                  \
+    TWO(FUNC_GE, compared(a.lo >= b.hi, a.hi < b.lo))                                                                  \
+    TWO(FUNC_POW, power(a, b))                                                                                         \
+    TWO(FUNC_MOD, remainder_of(a, b))                                                                                  \
+    THREE(CODE_MUL_ADD, sum(product(a, b), c))                                                                         \
+    THREE(CODE_MUL_SUB, difference(product(a, b), c))                                                                  \
+    THREE(CODE_SUB_MUL, difference(c, product(a, b)))                                                                  \
+    THREE(FUNC_IF_NEGATIVE, chosen(a.hi < 0, a.lo >= 0, b, c))                                                         \
+    THREE(FUNC_IF_ZERO, chosen((a.lo == 0) & (a.hi == 0), (a.lo > 0) | (a.hi < 0), b, c))                              \
+    STEP(FUNC_ABS, const bool flag = i->n != 0;, absolute(a, flag))                                                    \
+    STEP(FUNC_MIN, const Row *y = row_of(r, i->b); const bool flag = i->n != 0;, lesser_of(a, at(y, l), flag))         \
+    STEP(FUNC_MAX, const Row *y = row_of(r, i->b); const bool flag = i->n != 0;, greater_of(a, at(y, l), flag))        \
+    STEP(FUNC_ATAN2, const Row *y = row_of(r, i->b); const bool flag = i->n != 0;, angle(a, at(y, l), flag))           \
+    STEP(FUNC_NOISE, const Row *y = row_of(r, i->b); const Row *z = row_of(r, i->c); const int which = *(const int *)i->callee;, \
+         noise(a, at(y, l), at(z, l), which))
+STEPS
+
+static const Row *number_step(const Instr *i, Row *r)
+{
+    Row *d = row_of(r, i->dst);
+    const Piece v = constant(i->k);
+    PIECE_LOOP
+        put(d, l, v);
+    return steps[i[1].op](i + 1, r);
 }
 
-static Piece binary(const Instr *i, Piece a, Piece b)
+static const Row *unknown_step(const Instr *i, Row *r)
 {
-    switch (i->op) {
-    case FUNC_ADD: return sum(a, b);
-    case FUNC_SUB: return sum(a, negative(b));
-    case FUNC_MUL: return product(a, b);
-    case FUNC_DIV: return product(a, reciprocal(b));
-    case FUNC_LT: return compared(a.hi < b.lo, a.lo >= b.hi);
-    case FUNC_LE: return compared(a.hi <= b.lo, a.lo > b.hi);
-    case FUNC_GT: return compared(a.lo > b.hi, a.hi <= b.lo);
-    case FUNC_GE: return compared(a.lo >= b.hi, a.hi < b.lo);
-    case FUNC_POW: return power(a, b);
-    case FUNC_MOD: return remainder_of(a, b);
-    case FUNC_ATAN2: return angle(a, b, i->n != 0);
-    case FUNC_MIN: return lesser_of(a, b);
-    case FUNC_MAX: return negative(lesser_of(negative(a), negative(b)));
-    default: return unknown(-INFINITY, INFINITY);
-    }
+    Row *d = row_of(r, i->dst);
+    PIECE_LOOP
+        put(d, l, unknown(-INFINITY, INFINITY));
+    return steps[i[1].op](i + 1, r);
 }
 
-static Piece choice(unsigned op, Piece a, Piece b, Piece c)
+static const Row *end_step(const Instr *i, Row *r)
 {
-    Mask always = op == FUNC_IF_NEGATIVE ? a.hi < 0 : (a.lo == 0) & (a.hi == 0);
-    Mask never = op == FUNC_IF_NEGATIVE ? a.lo >= 0 : (a.lo > 0) | (a.hi < 0);
-    Piece either = { lesser(b.lo, c.lo), greater(b.hi, c.hi), all(INFINITY), all(INFINITY) };
-    return picked(always, b, picked(never, c, either));
+    return row_of(r, i->a);
 }
 
-static Piece value_of(const Function *f, Piece *r)
-{
-    for (const Instr *i = f->code; ; i++) {
-        const Piece *a = &r[i->a / CODE_ROW], *b = &r[i->b / CODE_ROW], *c = &r[i->c / CODE_ROW];
-        Piece v;
-        switch (i->op) {
-        case CODE_END: return *a;
-        case FUNC_NUMBER:                      /* not widened: powers ask whether it is one number */
-            r[i->dst / CODE_ROW] = isfinite(i->k) ? number(i->k) : unknown(-INFINITY, INFINITY);
-            continue;
-        case CODE_ADD_K: v = sum(*a, number(i->k)); break;
-        case CODE_RSUB_K: v = sum(number(i->k), negative(*a)); break;
-        case CODE_MUL_K: v = multiple(*a, i->k); break;
-        case CODE_RDIV_K: v = multiple(reciprocal(*a), i->k); break;
-        case CODE_MUL_ADD: v = sum(product(*a, *b), *c); break;
-        case CODE_MUL_SUB: v = sum(product(*a, *b), negative(*c)); break;
-        case CODE_SUB_MUL: v = sum(*c, negative(product(*a, *b))); break;
-        case FUNC_IF_NEGATIVE: case FUNC_IF_ZERO: v = choice(i->op, *a, *b, *c); break;
-        case FUNC_SUM: case FUNC_PROD: case FUNC_CALL: case FUNC_HOST: case FUNC_NATIVE: v = unknown(-INFINITY, INFINITY); break;
-        case FUNC_NOISE: v = noise(a, b, c, *(const int *)i->callee); break;
-        default: v = i->op == CODE_SQUARE || i->op < FUNC_ADD ? unary(i->op, *a) : binary(i, *a, *b); break;
-        }
-        r[i->dst / CODE_ROW] = widened(v);
-    }
-}
-
-static Piece along(const Function *f, const double *start, const double *speed, const double *at)
-{
-    Piece r[MAX_REGISTERS];
-    Lanes from, to;
-    memcpy(&from, at, sizeof from);
-    memcpy(&to, at + 1, sizeof to);
-    for (int k = 0; k < f->parameters; k++) {
-        Lanes a = start[k] + from * speed[k], b = start[k] + to * speed[k];
-        r[k] = widened((Piece){ lesser(a, b), greater(a, b), all(fabs(speed[k])), all(0) });
-    }
-    return value_of(f, r);
-}
+#define UNKNOWN(name) [name] = unknown_step,
+#undef STEP
+#define STEP(name, operands, value) [name] = name##_step,
+static Step *const steps[N_CODE_OPS] = {
+    [FUNC_NUMBER] = number_step, [CODE_END] = end_step, STEPS
+    UNKNOWN(FUNC_TAN) UNKNOWN(FUNC_ASIN) UNKNOWN(FUNC_ACOS) UNKNOWN(FUNC_SINH) UNKNOWN(FUNC_COSH) UNKNOWN(FUNC_ASINH)
+    UNKNOWN(FUNC_ACOSH) UNKNOWN(FUNC_ATANH) UNKNOWN(FUNC_EQ) UNKNOWN(FUNC_NE) UNKNOWN(FUNC_AND) UNKNOWN(FUNC_OR)
+    UNKNOWN(FUNC_SUM) UNKNOWN(FUNC_PROD) UNKNOWN(FUNC_CALL) UNKNOWN(FUNC_HOST) UNKNOWN(FUNC_NATIVE)
+};
 
 static void bounds(const Function *f, const double *start, const double *speed, const double *at, FuncPieces *out)
 {
-    for (int i = 0; i < FUNC_PIECES; i += WIDTH) {
-        Piece v = f->n_registers <= MAX_REGISTERS ? along(f, start, speed, at + i) : unknown(-INFINITY, INFINITY);
-        Lanes first = v.first * (1 + 0x1p-30), second = v.second * (1 + 0x1p-30);
-        memcpy(out->first + i, &first, sizeof first);
-        memcpy(out->second + i, &second, sizeof second);
+    Row r[f->n_registers] __attribute__((aligned(64)));
+    for (int k = 0; k < f->parameters; k++)
+        PIECE_LOOP {
+            double a = start[k] + at[l] * speed[k], b = start[k] + at[l + 1] * speed[k];
+            put(&r[k], l, (Piece){ lesser(a, b), greater(a, b), fabs(speed[k]), 0 });
+        }
+    *out = *steps[f->code->op](f->code, r);
+    PIECE_LOOP {
+        out->first[l] *= 1 + 0x1p-30;
+        out->second[l] *= 1 + 0x1p-30;
     }
 }
 
