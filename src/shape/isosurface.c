@@ -3,14 +3,14 @@
  * The first root along a ray is sought as the reference does (08-shapes, section 22): an interval is halved, near half first, until it
  * is shorter than the accuracy, and passed over as soon as the ends and the greatest gradient say that no root fits. What is
  * found lies up to the accuracy behind the true surface, and pictures show it, so here comes out the very same smallest interval; but
- * most halvings on the way are skipped. Calculus tells how steep and how curved f is at most on each eighth of the ray (func_pieces):
- * where it cannot come down to 0 nothing is asked, and where it falls all the way its root is closed in directly. Halvings that
- * remain are done three levels at a time, in the lanes of one evaluation, where that costs little. */
+ * most halvings on the way are skipped. Calculus tells the range of f on each eighth of the ray and how steep and how curved it is
+ * at most (func_pieces): where it cannot come down to 0 nothing is asked, and where it falls all the way its root is closed in
+ * directly. Halvings that remain are done three levels at a time, in the lanes of one evaluation, where that costs little. */
 #include "func/func.h"
 #include "shape/container.h"
 #include "shape/shape.h"
 
-enum { MAX_LEVELS = 3, MAX_POINTS = (1 << MAX_LEVELS) + 1, MAX_HALVINGS = 64, MAX_TRACE = 10 };
+enum { GRID = FUNC_PIECES, ALL_PIECES = (1 << GRID) - 1, MAX_HALVINGS = 64, MAX_TRACE = 10 };
 
 typedef struct {
     const Function *f;
@@ -20,7 +20,8 @@ typedef struct {
     bool evaluates;
     double evaluate[3];
     bool open;
-    int levels;                                /* of halving done in one evaluation */
+    bool cheap;                                /* are eight values as quickly found as one? */
+    bool bounded;                              /* is there something to learn from calculus? */
     double scene_unit;                         /* of compiled ones: world lengths per scene length */
     Affine place;
 } Isosurface;
@@ -76,7 +77,7 @@ static bool item(Parser *p, void *params)
     return true;
 }
 
-/* A ray on its way through an isosurface. Times are the ray's own. */
+/* A ray on its way through an isosurface. Times are the ray's own; values are what f has above the threshold, times the sign. */
 typedef struct Search {
     const Isosurface *s;
     const Ray *ray;
@@ -85,71 +86,117 @@ typedef struct Search {
     double accuracy;                           /* as a time */
     double speed;                              /* local length per time */
     double gradient;
-    double start, end;                         /* of the halvings */
-    bool measured;                             /* are the pieces known? They are the third halvings */
+    /* The first three halvings, done at once. */
+    double t[GRID + 1], v[GRID + 1];
+    unsigned known;                            /* bits: of v */
+    bool plain;                                /* only halvings */
+    bool measured;                             /* are the pieces of this grid known? */
     FuncPieces pieces;
+    unsigned clear;                            /* bits: pieces where all values are positive */
+    double top[GRID];                          /* no value of the piece is above */
 } Search;
 
 static double value_at(const Search *q, double t)
 {
     Vec3 p = ray_at(q->ray, t);
-    return func_call(q->s->f, (const double[]){ p.x, p.y, p.z }) - q->s->threshold;
+    return q->sign * (func_call(q->s->f, (const double[]){ p.x, p.y, p.z }) - q->s->threshold);
 }
 
-/* Points in order along the ray, 0 and `n` the ends of an interval, the others its repeated midpoints; what f has above the
- * threshold there. */
-typedef struct Samples { int n; double t[MAX_POINTS], v[MAX_POINTS]; } Samples;
-
-static void fill(Search *q, Samples *s, int first, int n)
+static void values_at(const Search *q, const double *t, double *v, int n)
 {
-    double x[MAX_POINTS], y[MAX_POINTS], z[MAX_POINTS];
+    double x[GRID + 1], y[GRID + 1], z[GRID + 1];
     for (int i = 0; i < n; i++) {
-        Vec3 p = ray_at(q->ray, s->t[first + i]);
+        Vec3 p = ray_at(q->ray, t[i]);
         x[i] = p.x;
         y[i] = p.y;
         z[i] = p.z;
     }
-    func_eval(q->s->f, (const double *const[]){ x, y, z }, s->v + first, (uint32_t)n);
+    func_eval(q->s->f, (const double *const[]){ x, y, z }, v, (uint32_t)n);
     for (int i = 0; i < n; i++)
-        s->v[first + i] -= q->s->threshold;
+        v[i] = q->sign * (v[i] - q->s->threshold);
 }
 
-static void divide(const Search *q, Samples *s, double a, double b, int levels)
+static double grid_value(Search *q, int i)
 {
-    double length = b - a;
-    while (levels > 1 && length <= 2 * q->accuracy) {
-        levels--;
-        length *= 2;
+    if (!(q->known >> i & 1)) {
+        q->v[i] = value_at(q, q->t[i]);
+        q->known |= 1u << i;
     }
-    s->n = 1 << levels;
-    s->t[0] = a;
-    s->t[s->n] = b;
-    for (int step = s->n; step > 1; step /= 2)
-        for (int i = step / 2; i < s->n; i += step)
-            s->t[i] = (s->t[i - step / 2] + s->t[i + step / 2]) / 2;
+    return q->v[i];
 }
 
-/* A first look from a to b; where functions are dear, at the ends only. */
-static void look(Search *q, Samples *s, double a, double b)
+/* t[0] and t[n] are given, the others are repeated midpoints. */
+static void divide(double *t, int n)
 {
-    divide(q, s, a, b, q->s->levels > 1 ? q->s->levels : 0);
-    fill(q, s, 0, s->n + 1);
+    for (int step = n; step > 1; step /= 2)
+        for (int i = step / 2; i < n; i += step)
+            t[i] = (t[i - step / 2] + t[i + step / 2]) / 2;
 }
 
-/* Between two samples whose values are known. */
-static void look_closer(Search *q, Samples *s, const Samples *from, int i)
+static void judge_pieces(Search *q)
 {
-    int levels = 1;
-    double length = from->t[i + 1] - from->t[i];
-    for (; levels < q->s->levels && length > 2 * q->accuracy; length /= 2)
-        levels++;
-    divide(q, s, from->t[i], from->t[i + 1], levels);
-    s->v[s->n] = from->v[i + 1];
-    if (s->n == 2) {
-        s->v[0] = from->v[i];
-        s->v[1] = value_at(q, s->t[1]);
+    q->clear = 0;
+    for (int i = 0; i < GRID; i++) {
+        double lo = q->pieces.lo[i] - q->s->threshold, hi = q->pieces.hi[i] - q->s->threshold;
+        q->clear |= (unsigned)(q->sign > 0 ? lo > 0 : hi < 0) << i;
+        q->top[i] = q->sign > 0 ? hi : -lo;
+    }
+}
+
+/* What calculus says of each eighth of the way. */
+static void measure(Search *q)
+{
+    const Ray *ray = q->ray;
+    const double start[3] = { ray->o.x, ray->o.y, ray->o.z }, speed[3] = { ray->d.x, ray->d.y, ray->d.z };
+    func_pieces(q->s->f, start, speed, q->t, &q->pieces);
+    q->measured = true;
+    judge_pieces(q);
+}
+
+static void turn_sides(Search *q)
+{
+    q->sign = -q->sign;
+    for (int i = 0; i <= GRID; i++)
+        q->v[i] = q->known >> i & 1 ? -q->v[i] : 0;
+    if (q->measured)
+        judge_pieces(q);
+}
+
+static void ask_ends(Search *q, int i, int j)
+{
+    if ((q->known >> i & 1) != 0 || (q->known >> j & 1) != 0) {
+        grid_value(q, i);
+        grid_value(q, j);
+        return;
+    }
+    double t[2] = { q->t[i], q->t[j] }, v[2];
+    values_at(q, t, v, 2);
+    q->v[i] = v[0];
+    q->v[j] = v[1];
+    q->known |= 1u << i | 1u << j;
+}
+
+/* A first look from a to b. Lanes are filled where values are cheap; else calculus goes first, which may make values unnecessary. */
+static void look(Search *q, double a, double b)
+{
+    q->t[0] = a;
+    q->t[GRID] = b;
+    q->plain = !q->s->bounded || b - a < 2 * GRID * q->accuracy;
+    q->measured = false;
+    q->clear = 0;
+    q->known = 0;
+    if (q->plain) {
+        ask_ends(q, 0, GRID);
+        return;
+    }
+    divide(q->t, GRID);
+    if (q->s->cheap) {
+        values_at(q, q->t, q->v, GRID + 1);
+        q->known = 2 * ALL_PIECES + 1;
     } else {
-        fill(q, s, 0, s->n);                   /* the first again: full rows are handled faster */
+        measure(q);
+        if ((q->clear & 1) == 0)
+            ask_ends(q, 0, (q->clear & 2) != 0 ? 1 : 2);
     }
 }
 
@@ -166,28 +213,13 @@ static bool may_hold_root(Search *q, double length, double va, double vb)
     return va + vb < q->gradient * q->speed * length;
 }
 
-/* What calculus says of each eighth of the way: paid for by fewer halvings once the first two have not settled the matter. */
-static void measure(Search *q)
-{
-    const Ray *ray = q->ray;
-    const double start[3] = { ray->o.x, ray->o.y, ray->o.z }, speed[3] = { ray->d.x, ray->d.y, ray->d.z };
-    double at[FUNC_PIECES + 1];
-    at[0] = q->start;
-    at[FUNC_PIECES] = q->end;
-    for (int step = FUNC_PIECES; step > 1; step /= 2)
-        for (int i = step / 2; i < FUNC_PIECES; i += step)
-            at[i] = (at[i - step / 2] + at[i + step / 2]) / 2;
-    func_pieces(q->s->f, start, speed, at, &q->pieces);
-    q->measured = true;
-}
-
-/* Bounds of the derivatives of f on a halving, whose first piece is given. */
+/* Bounds of the derivatives of f. */
 typedef struct Shape { double steep, bend; } Shape;
 
-static Shape shape_of(const Search *q, int piece, int depth)
+static Shape shape_of(const Search *q, int first, int end)
 {
     Shape most = { 0, 0 };
-    for (int i = piece, n = depth < 3 ? FUNC_PIECES >> depth : 1; n > 0; i++, n--) {
+    for (int i = first; i < end; i++) {
         most.steep = q->pieces.first[i] > most.steep ? q->pieces.first[i] : most.steep;
         most.bend = q->pieces.second[i] > most.bend ? q->pieces.second[i] : most.bend;
     }
@@ -231,27 +263,27 @@ static void ask_one(const Search *q, Bracket *k, bool far_end)
     if (far_end)
         t = k->va < -k->vb ? k->hi : k->lo;
     t = t < k->lo ? k->lo : t > k->hi ? k->hi : t;
-    bracket_put(k, t, q->sign * value_at(q, t));
+    bracket_put(k, t, value_at(q, t));
 }
 
-static void ask_row(Search *q, Bracket *k)
+static void ask_row(const Search *q, Bracket *k)
 {
     enum { N = 8 };
-    Samples s = { .n = N };
+    double t[N], v[N];
     for (int i = 0; i < N; i++)
-        s.t[i] = k->lo + (k->hi - k->lo) * ((i + 1) / (N + 1.0));
-    fill(q, &s, 0, N);
+        t[i] = k->lo + (k->hi - k->lo) * ((i + 1) / (N + 1.0));
+    values_at(q, t, v, N);
     int i = 0;
-    while (i < N - 1 && q->sign * s.v[i] >= 0)
+    while (i < N - 1 && v[i] >= 0)
         i++;
     if (i > 0)
-        bracket_put(k, s.t[i - 1], q->sign * s.v[i - 1]);
-    bracket_put(k, s.t[i], q->sign * s.v[i]);
+        bracket_put(k, t[i - 1], v[i - 1]);
+    bracket_put(k, t[i], v[i]);
 }
 
 /* Where f falls from a to b: the end of the smallest halving with the root, as if all had been looked at. Halvings ask f only
  * while their middle is not on a known side of it. */
-static double fall(Search *q, double a, double va, double b, double vb, double bend, int depth)
+static double fall(const Search *q, double a, double va, double b, double vb, double bend, int depth)
 {
     enum { TURNS = 8 };
     Bracket k = { a, va, b, vb, a, b };
@@ -261,14 +293,14 @@ static double fall(Search *q, double a, double va, double b, double vb, double b
         k.hi = lesser(k.hi, lesser(k.a + k.va / flat, k.b + k.vb / steep));
         if (!(k.hi - k.lo > q->accuracy / 4))
             break;
-        if (q->s->levels > 1)
+        if (q->s->cheap)
             ask_row(q, &k);
         else
             ask_one(q, &k, turn % 2 != 0);
     }
     for (; b - a >= q->accuracy && depth < MAX_HALVINGS; depth++) {
         double middle = (a + b) / 2;
-        if (middle <= k.lo || (middle < k.hi && q->sign * value_at(q, middle) >= 0))
+        if (middle <= k.lo || (middle < k.hi && value_at(q, middle) >= 0))
             k.lo = greater(k.lo, a = middle);
         else
             k.hi = lesser(k.hi, b = middle);
@@ -276,57 +308,146 @@ static double fall(Search *q, double a, double va, double b, double vb, double b
     return b;
 }
 
-static Found search(Search *q, const Samples *s, int i, int j, int depth, int piece, double *root)
+/* Do the bounds of the derivatives settle what is between a and b? */
+static bool settled(const Search *q, const Shape *m, double a, double va, double b, double vb, int depth, Found *found, double *root)
 {
-    double a = s->t[i], b = s->t[j], va = q->sign * s->v[i], vb = q->sign * s->v[j];
+    *found = NONE;
+    if (!q->measured || !(va > 0))
+        return false;
+    if (vb > 0)
+        return stays_positive(m, b - a, va, vb);
+    if (!(vb < 0 && falls(q, m, b - a, va, vb)))
+        return false;
+    *root = fall(q, a, va, b, vb, m->bend, depth);
+    *found = ROOT;
+    return true;
+}
+
+/* Values at midpoints to come; `step` from that of a halving to those of its halves. Returns the first step. */
+static int ask_ahead(const Search *q, double a, double b, double *v)
+{
+    if (!q->s->cheap) {
+        v[0] = value_at(q, (a + b) / 2);
+        return 0;
+    }
+    double t[GRID + 1] = { [0] = a, [GRID] = b };
+    divide(t, GRID);
+    values_at(q, t, v, GRID);                  /* the first again: full rows are handled faster */
+    return GRID / 2;
+}
+
+/* Within one piece, whose bounds are m. v and step: values asked ahead, if step is not 0. */
+static Found halve(Search *q, const Shape *m, double a, double va, double b, double vb, int depth, const double *v, int step, double *root)
+{
+    Found found;
     if (b - a < q->accuracy || depth == MAX_HALVINGS) {
         *root = b;
         return vb < 0 ? ROOT : NONE;
     }
-    if (q->sink != NULL && a > hit_limit(q->sink))
+    if (a > hit_limit(q->sink))
         return BEYOND;
     if (!may_hold_root(q, b - a, va, vb))
         return NONE;
-    Samples closer;
-    if (j - i == 1) {
-        if (!q->measured && depth >= 2 && !q->s->evaluates)
-            measure(q);
-        if (q->measured && va > 0) {
-            Shape most = shape_of(q, piece, depth);
-            if (vb > 0 && stays_positive(&most, b - a, va, vb))
-                return NONE;
-            if (vb < 0 && falls(q, &most, b - a, va, vb)) {
-                *root = fall(q, a, va, b, vb, most.bend, depth);
-                return ROOT;
-            }
-        }
-        look_closer(q, &closer, s, i);
-        s = &closer;
-        i = 0;
-        j = closer.n;
+    if (settled(q, m, a, va, b, vb, depth, &found, root))
+        return found;
+    double row[GRID], middle = (a + b) / 2;
+    if (step == 0) {
+        step = ask_ahead(q, a, b, row);
+        v = row + step;
     }
-    int middle = (i + j) / 2, half = depth < 3 ? FUNC_PIECES / 2 >> depth : 0;
-    Found found = search(q, s, i, middle, depth + 1, piece, root);
-    return found != NONE ? found : search(q, s, middle, j, depth + 1, piece + half, root);
+    double vm = *v;
+    step /= 2;
+    found = halve(q, m, a, va, middle, vm, depth + 1, v - step, step, root);
+    return found != NONE ? found : halve(q, m, middle, vm, b, vb, depth + 1, v + step, step, root);
 }
 
-static void report_roots(Search *q, Samples *s, int left, HitSink *sink)
+/* Pieces that may hold a root, by values alone. */
+static unsigned open_pieces(Search *q)
 {
-    double end = s->t[s->n], root;
+    unsigned open = ALL_PIECES;
+    for (int n = GRID; n > 0 && open != 0; n /= 2)
+        for (int i = 0; i < GRID; i += n)
+            if ((open >> i & 1) != 0 && !may_hold_root(q, q->t[i + n] - q->t[i], grid_value(q, i), grid_value(q, i + n)))
+                open &= ~((1u << (i + n)) - (1u << i));
+    return open;
+}
+
+/* Do the halvings come to the n pieces from i on? If not, *next is where they go on. */
+static bool comes_to(Search *q, int i, int n, int *next)
+{
+    for (; n <= GRID; n *= 2) {
+        int first = i - i % n, end = first + n;
+        double length = q->t[end] - q->t[first];
+        *next = end;
+        if (!(q->top[first] + q->top[end - 1] < q->gradient * q->speed * length)
+            && !may_hold_root(q, length, grid_value(q, first), grid_value(q, end)))
+            return false;
+    }
+    return true;
+}
+
+/* Piece i or, if that settles it, i and the next: *n tells. */
+static Found search_pieces(Search *q, unsigned open, int i, int *n, double *root)
+{
+    Found found;
+    if (i % 2 == 0 && (open >> i & 2) != 0) {
+        const Shape most = shape_of(q, i, i + 2);
+        ask_ends(q, i, i + 2);
+        if (settled(q, &most, q->t[i], q->v[i], q->t[i + 2], q->v[i + 2], 2, &found, root)) {
+            *n = 2;
+            return found;
+        }
+    }
+    const Shape most = shape_of(q, i, i + 1);
+    ask_ends(q, i, i + 1);
+    *n = 1;
+    return halve(q, &most, q->t[i], q->v[i], q->t[i + 1], q->v[i + 1], 3, NULL, 0, root);
+}
+
+/* Calculus says which pieces are worth a look. Whether a root would have been passed over is asked when there is one. */
+static Found search_grid(Search *q, double *root)
+{
+    unsigned open = q->s->cheap ? open_pieces(q) : ALL_PIECES;
+    if (open != 0 && !q->measured)
+        measure(q);
+    open &= ~q->clear;
+    for (int i = 0, n, next; i < GRID; i = next) {
+        next = i + 1;
+        if (!(open >> i & 1))
+            continue;
+        if (q->t[i] > hit_limit(q->sink))
+            return BEYOND;
+        Found found = search_pieces(q, open, i, &n, root);
+        if (found == BEYOND || (found == ROOT && comes_to(q, i, n, &next)))
+            return found;
+        if (found == NONE)
+            next = i + n;
+    }
+    return NONE;
+}
+
+static Found search(Search *q, double *root)
+{
+    static const Shape unknown;
+    if (q->plain)
+        return halve(q, &unknown, q->t[0], q->v[0], q->t[GRID], q->v[GRID], 0, NULL, 0, root);
+    return search_grid(q, root);
+}
+
+static void report_roots(Search *q, int left, HitSink *sink)
+{
+    double end = q->t[GRID], root;
     for (; left > 0; left--) {
         if (q->s->evaluates && q->gradient > q->s->evaluate[0])
             q->gradient *= q->s->evaluate[2];
-        q->start = s->t[0];
-        q->end = end;
-        q->measured = false;
-        if (search(q, s, 0, s->n, 0, 0, &root) != ROOT)
+        if (search(q, &root) != ROOT)
             return;
         hit_add(sink, root, 0);
         double next = root + 5 * q->accuracy;
         if (left == 1 || end - next < q->accuracy)
             return;
         q->sign = -q->sign;
-        look(q, s, next, end);
+        look(q, next, end);
     }
 }
 
@@ -338,8 +459,14 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     if (!container_span(&s->container, ray, &t0, &t1, &enter, &leave) || t1 <= 0)
         return;
     double scene_speed = length(affine_vector(&s->place, ray->d)) / s->scene_unit;
-    Search q = { .s = s, .ray = ray, .sink = sink, .sign = 1, .accuracy = s->accuracy / scene_speed, .speed = length(ray->d),
-                 .gradient = s->max_gradient };
+    Search q;                                  /* not cleared: it is large */
+    q.s = s;
+    q.ray = ray;
+    q.sink = sink;
+    q.sign = 1;
+    q.accuracy = s->accuracy / scene_speed;
+    q.speed = length(ray->d);
+    q.gradient = s->max_gradient;
     double near = 4 * s->max_gradient * s->accuracy;
     int left = s->max_trace;
     t0 = fmax(t0, 0);
@@ -351,18 +478,17 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     }
     if (t1 - t0 < q.accuracy)
         return;
-    Samples samples;
-    look(&q, &samples, t0, t1);
-    bool starts_inside = samples.v[0] < 0;
-    if (starts_inside)
-        q.sign = -1;
+    look(&q, t0, t1);
+    bool starts_inside = (q.clear & 1) == 0 && grid_value(&q, 0) < 0;
     if (!s->open && starts_outside && starts_inside) {
         hit_add(sink, t0, enter);
         left--;
-    } else if (!s->open && !starts_outside && samples.v[samples.n] < 0) {
+    } else if (!s->open && !starts_outside && (q.clear >> (GRID - 1) & 1) == 0 && grid_value(&q, GRID) < 0) {
         hit_add(sink, t1, leave);
     }
-    report_roots(&q, &samples, left, sink);
+    if (starts_inside)
+        turn_sides(&q);
+    report_roots(&q, left, sink);
 }
 
 static bool inside(const void *shape, Vec3 p)
@@ -395,7 +521,8 @@ static void compile(ShapeBuild *b, const void *params)
     s->open = (b->object->flags & OBJECT_OPEN) != 0;
     s->place = b->place;
     s->scene_unit = b->unit;
-    s->levels = func_is_cheap(s->f) ? MAX_LEVELS : 1;
+    s->cheap = func_is_cheap(s->f);
+    s->bounded = !s->evaluates && func_is_bounded(s->f);
     build_prim(b, s, &b->place, shape_padded(s->container.box));
 }
 
