@@ -6,7 +6,10 @@
 #include <complex.h>
 #undef I
 
+#include "base/cpu.h"
 #include "sdl/parse.h"
+#include "shape/clearance.h"
+#include "shape/julia.h"
 #include "shape/shape.h"
 
 #ifndef CMPLX                                  /* clang with glibc before 2.36 */
@@ -27,14 +30,14 @@ typedef struct {
 } Params;
 
 typedef struct {
-    Params p;
-    double step;                               /* 1 / precision */
-    double radius, escape;                     /* of the ball; |z|^2 of what is lost */
+    JuliaSet set;
+    Map *map;
+    Complex exponent;
+    const JuliaKernel *kernel;                 /* of sets of powers; NULL for other functions */
+    Clearance air;                             /* around those */
 } Julia;
 
 enum { MOST_ITERATIONS = 10000 };
-
-static const double ACCURACY = 1e-7;
 
 /* POV: rays leave a hit from its inner end. One that meets the surface again nearer than this goes through: that is dropped as the
  * surface that it left, and nothing else is looked for. It makes ragged surfaces lighter than shadows would. */
@@ -149,8 +152,8 @@ static void finish(Parser *p, void *params)
 static void bound(const Params *p, double *radius, double *escape)
 {
     double c = sqrt(p->c.x * p->c.x + p->c.y * p->c.y + p->c.z * p->c.z + p->c.t * p->c.t);
-    *radius = p->hypercomplex ? 4 : fmin(2, 1 + c + ACCURACY);
-    *escape = p->hypercomplex ? 16 : *radius * *radius + ACCURACY;
+    *radius = p->hypercomplex ? 4 : fmin(2, 1 + c + JULIA_ACCURACY);
+    *escape = p->hypercomplex ? 16 : *radius * *radius + JULIA_ACCURACY;
 }
 
 static Bounds box_of(double r)
@@ -158,48 +161,28 @@ static Bounds box_of(double r)
     return (Bounds){ vec3(-r, -r, -r), vec3(r, r, r) };
 }
 
-static void compile(ShapeBuild *b, const void *params)
-{
-    Julia *out = build_data(b, sizeof *out);
-    out->p = *(const Params *)params;
-    out->step = 1 / out->p.precision;
-    bound(&out->p, &out->radius, &out->escape);
-    build_prim(b, out, &b->place, shape_padded(box_of(out->radius)));
-}
-
 /* ---- orbits ---- */
 
 static double norm2(Vec4 a) { return a.x * a.x + a.y * a.y + a.z * a.z + a.t * a.t; }
 
-static Vec4 start_of(const Julia *j, Vec3 p)
-{
-    const Params *q = &j->p;
-    double w = (q->slice_distance - (q->slice.x * p.x + q->slice.y * p.y + q->slice.z * p.z)) / q->slice.t;
-    return (Vec4){ p.x, p.y, p.z, w };
-}
-
 /* s + v to s^2 - |v|^2 + 2 s v, or to s^3 - 3 s |v|^2 + (3 s^2 - |v|^2) v: a power stays in the plane of 1 and v. */
 static Vec4 quaternion_next(const Julia *j, Vec4 z)
 {
-    Vec4 c = j->p.c;
+    Vec4 c = j->set.c;
     double ss = z.x * z.x, vv = z.y * z.y + z.z * z.z + z.t * z.t, real = ss - vv, f = 2 * z.x;
-    if (j->p.cube) {
+    if (j->set.cube) {
         real = z.x * (ss - 3 * vv);
         f = 3 * ss - vv;
     }
     return (Vec4){ real + c.x, f * z.y + c.y, f * z.z + c.z, f * z.t + c.t };
 }
 
-/* How many of n steps before |z|^2 exceeds the limit. *product: of |z|^2 along the orbit. */
-static int quaternion_orbit(const Julia *j, Vec4 z, double *norm, double *product)
+/* How many of n steps before |z|^2 exceeds the limit. */
+static int quaternion_orbit(const Julia *j, Vec4 z)
 {
-    int k = 0, n = j->p.n;
-    double all = 1;
-    for (; k < n && (*norm = norm2(z)) <= j->escape; k++) {
-        all *= *norm;
+    int k = 0;
+    for (; k < j->set.n && norm2(z) <= j->set.escape; k++)
         z = quaternion_next(j, z);
-    }
-    *product = all;
     return k;
 }
 
@@ -236,27 +219,27 @@ static double pair_norm2(Pair p)
 /* f(z), without the c. */
 static Pair mapped(const Julia *j, Pair z)
 {
-    Map *map = j->p.map;
-    return map == NULL ? pair_times(z, z) : (Pair){ map(z.a, j->p.exponent), map(z.b, j->p.exponent) };
+    Map *map = j->map;
+    return map == NULL ? pair_times(z, z) : (Pair){ map(z.a, j->exponent), map(z.b, j->exponent) };
 }
 
 /* What the orbit's normal takes for the derivative at z, up to a factor. POV: the value itself, but for square and reciprocal. */
 static Pair slope_like(const Julia *j, Pair z, Pair f)
 {
-    if (j->p.map == map_reciprocal) {
+    if (j->map == map_reciprocal) {
         Pair s = pair_times(f, f);
         return (Pair){ -s.a, -s.b };
     }
-    return j->p.map == NULL ? z : f;
+    return j->map == NULL ? z : f;
 }
 
 /* hyper_orbit of the square, by far the commonest, in numbers that fit the registers. */
-static int square_orbit(const Julia *j, Pair *z, double *norm, Pair *product)
+static int square_orbit(const Julia *j, double escape, Pair *z, double *norm, Pair *product)
 {
-    Pair c = pair_of(j->p.c);
-    double ar = creal(z->a), ai = cimag(z->a), br = creal(z->b), bi = cimag(z->b), limit = 2 * j->escape, n2 = 0;
+    Pair c = pair_of(j->set.c);
+    double ar = creal(z->a), ai = cimag(z->a), br = creal(z->b), bi = cimag(z->b), limit = 2 * escape, n2 = 0;
     double pr = 1, pi = 0, qr = 1, qi = 0, cr = creal(c.a), ci = cimag(c.a), dr = creal(c.b), di = cimag(c.b);
-    int k = 0, n = j->p.n;
+    int k = 0, n = j->set.n;
     for (; k < n; k++) {
         double aa = ar * ar, ai2 = ai * ai, bb = br * br, bi2 = bi * bi;
         n2 = aa + ai2 + (bb + bi2);
@@ -278,15 +261,15 @@ static int square_orbit(const Julia *j, Pair *z, double *norm, Pair *product)
     return k;
 }
 
-/* As quaternion_orbit. *z becomes the last point, *product that of the slopes. */
-static int hyper_orbit(const Julia *j, Pair *z, double *norm, Pair *product)
+/* As quaternion_orbit. *norm: the last |z|^2. *z becomes the last point, *product that of the slopes. */
+static int hyper_orbit(const Julia *j, double escape, Pair *z, double *norm, Pair *product)
 {
-    if (j->p.map == NULL)
-        return square_orbit(j, z, norm, product);
-    Pair c = pair_of(j->p.c);
-    int k = 0, n = j->p.n;
+    if (j->map == NULL)
+        return square_orbit(j, escape, z, norm, product);
+    Pair c = pair_of(j->set.c);
+    int k = 0, n = j->set.n;
     *product = (Pair){ 1, 1 };
-    for (; k < n && (*norm = pair_norm2(*z)) <= j->escape; k++) {
+    for (; k < n && (*norm = pair_norm2(*z)) <= escape; k++) {
         Pair f = mapped(j, *z);
         *product = k == 0 ? *z : pair_times(*product, slope_like(j, *z, f));
         *z = (Pair){ f.a + c.a, f.b + c.b };
@@ -297,20 +280,20 @@ static int hyper_orbit(const Julia *j, Pair *z, double *norm, Pair *product)
 /* POV: for all functions but the square and the reciprocal the plain test, and so the normal, takes y for z as well. */
 static Pair plain_start(const Julia *j, Vec3 p)
 {
-    bool odd = j->p.map != NULL && j->p.map != map_reciprocal;
-    return pair_of(start_of(j, odd ? vec3(p.x, p.y, p.y) : p));
+    bool odd = j->map != NULL && j->map != map_reciprocal;
+    return pair_of(julia_start(&j->set, odd ? vec3(p.x, p.y, p.y) : p));
 }
 
 static bool holds(const Julia *j, Vec3 p)
 {
-    double norm, size;
-    if (!j->p.hypercomplex)
-        return quaternion_orbit(j, start_of(j, p), &norm, &size) == j->p.n;
-    Pair z = plain_start(j, p), c = pair_of(j->p.c), product;
-    if (j->p.map == NULL)
-        return square_orbit(j, &z, &norm, &product) == j->p.n;
-    for (int k = 0; k < j->p.n; k++) {
-        if (!(pair_norm2(z) <= j->escape))
+    double norm;
+    if (!j->set.hypercomplex)
+        return quaternion_orbit(j, julia_start(&j->set, p)) == j->set.n;
+    Pair z = plain_start(j, p), c = pair_of(j->set.c), product;
+    if (j->map == NULL)
+        return square_orbit(j, j->set.escape, &z, &norm, &product) == j->set.n;
+    for (int k = 0; k < j->set.n; k++) {
+        if (!(pair_norm2(z) <= j->set.escape))
             return false;
         Pair f = mapped(j, z);
         z = (Pair){ f.a + c.a, f.b + c.b };
@@ -321,55 +304,84 @@ static bool holds(const Julia *j, Vec3 p)
 /* The gradient of |z_k|^2 / 2 along the orbit from z0, as the reference has it. */
 static Vec3 hyper_gradient(const Julia *j, Pair product, Pair last, int k)
 {
-    double f = j->p.map == NULL ? ldexp(1, k) : 1;
+    double f = j->map == NULL ? ldexp(1, k) : 1;
     Vec4 m = of_pair(product), z = of_pair(last);
     return scaled(vec3(m.x * z.x + m.y * z.y + m.z * z.z + m.t * z.t, -m.y * z.x + m.x * z.y - m.t * z.z + m.z * z.t,
                        -m.z * z.x - m.t * z.y + m.x * z.z + m.y * z.t), f);
 }
 
 /* Is p inside? If not, `step` is what the ray may go on by. */
-static bool quaternion_step(const Julia *j, Vec3 p, double *step)
-{
-    double norm = 0, product;
-    int k = quaternion_orbit(j, start_of(j, p), &norm, &product);
-    *step = j->step;
-    if (k == j->p.n)
-        return true;
-    double estimate = log(norm) / sqrt(product);
-    for (int i = 0; i <= k; i++)
-        estimate *= j->p.cube ? 1 / 3.0 : 0.5;
-    if (estimate > *step && isfinite(estimate))
-        *step = estimate;
-    return false;
-}
-
 static bool hyper_step(const Julia *j, Vec3 p, Vec3 d, double *step)
 {
-    Pair z = pair_of(start_of(j, p)), product;
+    Pair z = pair_of(julia_start(&j->set, p)), product;
     double n = 0;
-    int k = hyper_orbit(j, &z, &n, &product);
-    *step = j->step;
-    if (k == j->p.n)
+    int k = hyper_orbit(j, j->set.escape, &z, &n, &product);
+    *step = j->set.step;
+    if (k == j->set.n)
         return true;
     double slope = dot(hyper_gradient(j, product, z, k), d);
     if (slope < -1e-8) {
         double estimate = n / (-2 * slope);
-        if (estimate > j->step && estimate < 30 * j->step)
+        if (estimate > j->set.step && estimate < 30 * j->set.step)
             *step = estimate;
     }
     return false;
 }
 
-static bool holds_or_step(const Julia *j, Vec3 p, Vec3 d, double *step)
+/* ---- compiling ---- */
+
+#define DECLARE(isa) \
+    JuliaRun julia_ahead_##isa(const JuliaSet *, Vec3, Vec3, double, bool); \
+    double julia_closed_in_##isa(const JuliaSet *, Vec3, Vec3, double, double, bool); \
+    Vec3 julia_normal_##isa(const JuliaSet *, Vec3); \
+    uint32_t julia_may_hold_##isa(const JuliaSet *, const Vec3 *, double); \
+    static const JuliaKernel kernel_##isa = { julia_ahead_##isa, julia_closed_in_##isa, julia_normal_##isa, julia_may_hold_##isa };
+CPU_ISAS(DECLARE)
+
+static const JuliaKernel *kernel_of_machine(void)
 {
-    return j->p.hypercomplex ? hyper_step(j, p, d, step) : quaternion_step(j, p, step);
+    static const JuliaKernel *const kernel[] = CPU_TABLE(&kernel);
+    return kernel[cpu_isa()];
+}
+
+static uint32_t may_hold(const void *solid, const Vec3 centre[8], double radius)
+{
+    const Julia *j = solid;
+    return j->kernel->may_hold(&j->set, centre, radius);
+}
+
+static void compile(ShapeBuild *b, const void *params)
+{
+    const Params *p = params;
+    Julia *out = build_data(b, sizeof *out);
+    out->set = (JuliaSet){ .c = p->c, .slice = p->slice, .slice_distance = p->slice_distance, .hypercomplex = p->hypercomplex,
+                           .cube = p->cube, .n = p->n, .step = 1 / p->precision };
+    bound(p, &out->set.radius, &out->set.escape);
+    out->map = p->map;
+    out->exponent = p->exponent;
+    if (p->map == NULL) {
+        out->kernel = kernel_of_machine();
+        clearance_build(&out->air, may_hold, out, out->set.radius);
+    }
+    build_prim(b, out, &b->place, shape_padded(box_of(out->set.radius)));
 }
 
 /* ---- along a ray ---- */
 
+static JuliaRun ahead(const Julia *j, Vec3 o, Vec3 u, double s, bool alone)
+{
+    if (j->kernel != NULL)
+        return j->kernel->ahead(&j->set, o, u, s, alone);
+    JuliaRun run = { .n = 1 };
+    run.inside = hyper_step(j, add(o, scaled(u, s)), u, &run.step);
+    return run;
+}
+
 static double closed_in(const Julia *j, Vec3 o, Vec3 u, double lo, double hi, bool inside_lo)
 {
-    while (hi - lo > ACCURACY) {
+    if (j->kernel != NULL)
+        return j->kernel->closed_in(&j->set, o, u, lo, hi, inside_lo);
+    while (hi - lo > JULIA_ACCURACY) {
         double middle = 0.5 * (lo + hi);
         if (middle <= lo || middle >= hi)
             break;
@@ -384,26 +396,32 @@ static double closed_in(const Julia *j, Vec3 o, Vec3 u, double lo, double hi, bo
 static void hits(const void *shape, const Ray *ray, HitSink *sink)
 {
     const Julia *j = shape;
-    double len = length(ray->d), shift = shape_nearest_t(ray), step, previous;
+    double len = length(ray->d), shift = shape_nearest_t(ray);
     Vec3 o = ray_at(ray, shift), u = scaled(ray->d, 1 / len);
-    double h2 = j->radius * j->radius - length2(o);
+    double h2 = j->set.radius * j->set.radius - length2(o);
     if (!(h2 > 0))
         return;
-    double out = sqrt(h2), s = fmax(-out, -shift * len + ACCURACY);
-    if (!(s < out))
+    double out = sqrt(h2), s = fmax(-out, -shift * len + JULIA_ACCURACY), air = j->kernel != NULL ? clearance_from(&j->air, o, u) : out;
+    if (!(s < out) || s > air)
         return;
     double near = -shift * len > -out ? -shift * len + NEAREST : -INFINITY;
-    bool inside_now = holds_or_step(j, add(o, scaled(u, s)), u, &step);
+    JuliaRun run = ahead(j, o, u, s, true);
+    bool inside_now = run.inside & 1;
     if (inside_now) {
-        s += 2 * ACCURACY;
-        inside_now = holds_or_step(j, add(o, scaled(u, s)), u, &step);
+        s += 2 * JULIA_ACCURACY;
+        run = ahead(j, o, u, s, true);
+        inside_now = run.inside & 1;
     }
-    for (;;) {
-        previous = s;
-        s += step;
-        if (s > out || (previous / len) + shift > hit_limit(sink))
+    for (int i = 0;;) {
+        double previous = s;
+        s += i + 1 < run.n ? j->set.step : run.step;
+        if (s > out || (previous > air && !inside_now) || (previous / len) + shift > hit_limit(sink))
             return;
-        bool now = holds_or_step(j, add(o, scaled(u, s)), u, &step);
+        if (++i == run.n) {
+            run = ahead(j, o, u, s, run.step != j->set.step);
+            i = 0;
+        }
+        bool now = run.inside >> i & 1;
         if (now == inside_now)
             continue;
         double hit = closed_in(j, o, u, previous, s, inside_now);
@@ -417,49 +435,17 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
 static bool inside(const void *shape, Vec3 p)
 {
     const Julia *j = shape;
-    return length2(p) <= j->radius * j->radius && holds(j, p);
+    return length2(p) <= j->set.radius * j->set.radius && holds(j, p);
 }
 
 /* ---- at a point ---- */
 
-static Vec4 quaternion_times(Vec4 a, Vec4 b)
-{
-    return (Vec4){ a.x * b.x - a.y * b.y - a.z * b.z - a.t * b.t, a.x * b.y + a.y * b.x + a.z * b.t - a.t * b.z,
-                   a.x * b.z - a.y * b.t + a.z * b.x + a.t * b.y, a.x * b.t + a.y * b.z - a.z * b.y + a.t * b.x };
-}
-
-/* z_n and the derivatives of z_n by x, y and z, one quaternion each: d(z^2) = dz z + z dz. */
-static Vec3 quaternion_normal(const Julia *j, Vec3 p)
-{
-    Vec4 z = start_of(j, p), d[3] = { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 } };
-    for (int i = 0; i < j->p.n; i++) {
-        Vec4 z2 = quaternion_times(z, z);
-        for (int k = 0; k < 3; k++) {
-            Vec4 a = quaternion_times(d[k], z), b = quaternion_times(z, d[k]);
-            Vec4 square = { a.x + b.x, a.y + b.y, a.z + b.z, a.t + b.t };
-            if (j->p.cube) {
-                a = quaternion_times(square, z);
-                b = quaternion_times(z2, d[k]);
-                square = (Vec4){ a.x + b.x, a.y + b.y, a.z + b.z, a.t + b.t };
-            }
-            d[k] = square;
-        }
-        z = quaternion_next(j, z);
-    }
-    double n[3];
-    for (int k = 0; k < 3; k++)
-        n[k] = d[k].x * z.x + d[k].y * z.y + d[k].z * z.z + d[k].t * z.t;
-    return vec3(n[0], n[1], n[2]);
-}
-
 /* All steps, also where the orbit would be lost at the last. */
 static Vec3 hyper_normal(const Julia *j, Vec3 p)
 {
-    Julia lax = *j;
-    lax.escape = INFINITY;
     Pair z = plain_start(j, p), product;
     double norm;
-    hyper_orbit(&lax, &z, &norm, &product);
+    hyper_orbit(j, INFINITY, &z, &norm, &product);
     return hyper_gradient(j, product, z, 0);
 }
 
@@ -467,7 +453,7 @@ static void surface(const void *shape, const Hit *hit, Surface *out)
 {
     (void)hit;
     const Julia *j = shape;
-    Vec3 n = j->p.hypercomplex ? hyper_normal(j, out->p) : quaternion_normal(j, out->p);
+    Vec3 n = j->set.hypercomplex ? hyper_normal(j, out->p) : j->kernel->normal(&j->set, out->p);
     out->normal = vec3_finite(n) && max_abs(n) > 0 ? scaled(n, 1 / max_abs(n)) : vec3(0, 0, 0);
 }
 
