@@ -2,6 +2,7 @@
 #include "render/antialias.h"
 
 #include <stdatomic.h>
+#include <string.h>
 
 #include "render/contrast.h"
 
@@ -10,7 +11,7 @@ typedef struct Pixel {
     bool refined;                              /* supersampled, or not to be */
 } Pixel;
 
-enum { ROW = TILE_SIZE + 1 };
+enum { ROW = TILE_SIZE + 1 };               /* at most SAMPLER_ROW */
 
 /* Colours at the centres of the last row and the last column of a tile, for the tiles below and to the right. */
 typedef struct Edge {
@@ -62,13 +63,16 @@ Antialias *antialias_new(Arena *arena, Antialiasing *all)
     return a;
 }
 
-static void store(const Antialias *a, float *rgba, int x, int y, Colour c)
+static float *pixel_of(const Antialias *a, float *rgba, int x, int y)
 {
-    float *out = &rgba[4 * ((size_t)y * (size_t)a->options->width + (size_t)x)];
-    out[0] = c.r;
-    out[1] = c.g;
-    out[2] = c.b;
-    out[3] = 1 - c.t;
+    return &rgba[4 * ((size_t)y * (size_t)a->options->width + (size_t)x)];
+}
+
+static inline void store(float *out, Colour c)
+{
+    Rgb rgba = rgb_of(c);
+    rgba[3] = 1 - c.t;
+    memcpy(out, &rgba, sizeof rgba);
 }
 
 /* ---- method 1: neighbours ---- */
@@ -118,9 +122,10 @@ static void by_neighbours(Antialias *a, Sampler *s, const Tile *tile, float *rgb
     for (int y = tile->y0; y < tile->y1; y++) {
         Pixel *row = &a->pixel[(y - tile->y0 + 1) * ROW];
         pixel_set(a, &row[0], before != NULL ? before->column[y - tile->y0] : sampler_colour(s, tile->x0 - 1, y), true);
+        sampler_row(s, tile->x0, y, tile->x1 - tile->x0);
         for (int x = tile->x0; x < tile->x1; x++) {
             Pixel *here = &row[x - tile->x0 + 1], *left = here - 1, *above = here - ROW;
-            Colour centre = sampler_colour(s, x, y);
+            Colour centre = sampler_in_row(s, x - tile->x0);
             pixel_set(a, here, centre, false);
             if (own != NULL && y == tile->y1 - 1)
                 own->row[x - tile->x0] = centre;
@@ -140,7 +145,7 @@ static void by_neighbours(Antialias *a, Sampler *s, const Tile *tile, float *rgb
         atomic_store_explicit(&own->known, !sampler_took_chances(s), memory_order_release);
     for (int y = tile->y0; y < tile->y1; y++)
         for (int x = tile->x0; x < tile->x1; x++)
-            store(a, rgba, x, y, a->pixel[(y - tile->y0 + 1) * ROW + x - tile->x0 + 1].seen.colour);
+            store(pixel_of(a, rgba, x, y), a->pixel[(y - tile->y0 + 1) * ROW + x - tile->x0 + 1].seen.colour);
 }
 
 /* ---- method 2: subdividing ---- */
@@ -204,17 +209,30 @@ static Colour subdivide(const Subdivision *d, Square q, Seen *const corner[4], i
 
 static void by_subdividing(Antialias *a, Sampler *s, const Tile *tile, float *rgba)
 {
-    for (int y = tile->y0; y <= tile->y1; y++)
+    for (int y = tile->y0; y <= tile->y1; y++) {
+        sampler_row(s, tile->x0 - 0.5, y - 0.5, tile->x1 - tile->x0 + 1);
         for (int x = tile->x0; x <= tile->x1; x++)
-            pixel_set(a, &a->pixel[(y - tile->y0) * ROW + x - tile->x0], sampler_colour(s, x - 0.5, y - 0.5), true);
+            pixel_set(a, &a->pixel[(y - tile->y0) * ROW + x - tile->x0], sampler_in_row(s, x - tile->x0), true);
+    }
     for (int y = tile->y0; y < tile->y1; y++)
         for (int x = tile->x0; x < tile->x1; x++) {
             Pixel *p = &a->pixel[(y - tile->y0) * ROW + x - tile->x0];
             Seen *const corner[4] = { &p[0].seen, &p[1].seen, &p[ROW].seen, &p[ROW + 1].seen };
             Subdivision d = { a, s, x - 0.5, y - 0.5 };
             a->stamp++;
-            store(a, rgba, x, y, subdivide(&d, (Square){ 0, 0, a->side }, corner, a->options->depth - 1));
+            store(pixel_of(a, rgba, x, y), subdivide(&d, (Square){ 0, 0, a->side }, corner, a->options->depth - 1));
         }
+}
+
+static void by_centres(const Antialias *a, Sampler *s, const Tile *tile, float *rgba)
+{
+    for (int y = tile->y0; y < tile->y1; y++) {
+        float *out = pixel_of(a, rgba, tile->x0, y);
+        int n = tile->x1 - tile->x0;
+        sampler_row(s, tile->x0, y, n);
+        for (int i = 0; i < n; i++, out += 4)
+            store(out, sampler_in_row(s, i));
+    }
 }
 
 void antialias_tile(Antialias *a, Sampler *s, const Tile *tile, float *rgba)
@@ -224,7 +242,5 @@ void antialias_tile(Antialias *a, Sampler *s, const Tile *tile, float *rgba)
     else if (a->options->antialias == 2)
         by_subdividing(a, s, tile, rgba);
     else
-        for (int y = tile->y0; y < tile->y1; y++)
-            for (int x = tile->x0; x < tile->x1; x++)
-                store(a, rgba, x, y, sampler_colour(s, x, y));
+        by_centres(a, s, tile, rgba);
 }

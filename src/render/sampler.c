@@ -2,6 +2,7 @@
 #include "render/sampler.h"
 
 #include "texture/texture.h"
+#include "world/fan.h"
 #include "world/shaft.h"
 
 /* Kept apart, so that plain rays need not make room for what others do. */
@@ -93,12 +94,12 @@ bool sampler_took_chances(const Sampler *s)
     return tracer_took_chances(s->tracer);
 }
 
-/* The ray starts at a place in scene space; its direction is written already. */
+/* The ray starts at a place in world space; its direction is written already. */
 static inline Colour look_from(Sampler *s, Vec3 from)
 {
     const Sampling *all = s->sampling;
     const Interiors *around = &s->at_home;
-    s->ray->o = scaled(from, all->world->unit);
+    s->ray->o = from;
     if (all->moves && !bounds_contain(all->home, s->ray->o)) {
         tracer_interiors(s->tracer, s->ray->o, &s->elsewhere);
         around = &s->elsewhere;
@@ -113,7 +114,7 @@ static inline Colour shoot(Sampler *s, const CameraRay *ray)
     if (normal != NULL)
         d = normalized(normal_perturb(normal, vec3(ray->work.u, ray->work.v, 0), d, NULL));
     s->ray->d = d;
-    return look_from(s, ray->o);
+    return look_from(s, scaled(ray->o, s->sampling->world->unit));
 }
 
 /* ---- focal blur ---- */
@@ -182,7 +183,7 @@ static inline bool blur_sample(Sampler *s, double x, double y, int seed, uint32_
     Vec2 place = camera_place(camera, x, y);
     Vec3 e = blur_eye(all, x, y, m);
     s->ray->d = normalized(sub(scaled(camera_direction(camera, place.u, place.v), all->focus), e));
-    *out = look_from(s, add(camera->def->location, e));
+    *out = look_from(s, scaled(add(camera->def->location, e), all->world->unit));
     return true;
 }
 
@@ -247,9 +248,63 @@ Colour sampler_colour(Sampler *s, double x, double y)
     }
     if (all->parallel) {
         Vec2 at = camera_place(camera, x, y);
-        return look_from(s, camera_parallel_origin(camera, at.u, at.v));
+        return look_from(s, scaled(camera_parallel_origin(camera, at.u, at.v), all->world->unit));
     }
     if (all->mesh != NULL)
         return through_mesh(s, x, y);
     return all->blur != NULL ? blurred(s, x, y) : bent(s, x, y);
+}
+
+/* ---- rows ---- */
+
+/* a + u b + v c, as camera_blend has it. */
+static inline Vec3s blends(Vec3 a, Vec3 b, d4 u, Vec3 c, double v)
+{
+    return vec3s_add(vec3s_add(vec3s_set(a), vec3s_scaled(vec3s_set(b), u)), vec3s_set(scaled(c, v)));
+}
+
+/* As normalized() has it. */
+static inline Vec3s unit_vectors(Vec3s d)
+{
+    d4 n = d4_sqrt(vec3s_dot(d, d)), inverse = d4_div(d4_set(1), n);
+    if (d4_lt(d4_set(0), n) != FAN_ALL) {      /* some is the zero vector, and stays it */
+        double length[4], by[4];
+        d4_store(length, n);
+        for (int i = 0; i < 4; i++)
+            by[i] = length[i] > 0 ? 1 / length[i] : 1;
+        inverse = d4_load(by);
+    }
+    return vec3s_scaled(d, inverse);
+}
+
+void sampler_row(Sampler *s, double x, double y, int n)
+{
+    const Sampling *all = s->sampling;
+    const Camera *camera = &all->camera;
+    const CameraDef *def = camera->def;
+    s->row_x = x;
+    s->row_y = y;
+    if (!all->pinhole && !all->parallel)
+        return;
+    double v = camera_place(camera, x, y).v;
+    for (int i = 0; i < n; i += 4) {
+        d4 at = d4_add(d4_load((const double[]){ 0.5, 1.5, 2.5, 3.5 }), d4_set(x + i));
+        d4 u = d4_sub(d4_div(at, d4_set(camera->width)), d4_set(0.5));
+        Vec3s differ = all->pinhole ? unit_vectors(blends(def->direction, def->right, u, def->up, v))
+                                    : vec3s_scaled(blends(def->location, def->right, u, def->up, v), d4_set(all->world->unit));
+        d4_store(&s->row[0][i], differ.x);
+        d4_store(&s->row[1][i], differ.y);
+        d4_store(&s->row[2][i], differ.z);
+    }
+}
+
+Colour sampler_in_row(Sampler *s, int i)
+{
+    const Sampling *all = s->sampling;
+    Vec3 differs = vec3(s->row[0][i], s->row[1][i], s->row[2][i]);
+    if (all->pinhole) {
+        s->ray->d = differs;
+        return tracer_look(s->tracer, &s->at_home);
+    }
+    return all->parallel ? look_from(s, differs) : sampler_colour(s, s->row_x + i, s->row_y);
 }

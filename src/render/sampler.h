@@ -26,11 +26,15 @@ typedef struct Sampling {
     bool parallel;                             /* rays all lead along the camera's direction, one for each sample */
 } Sampling;
 
+enum { SAMPLER_ROW = 36 };                     /* places, a multiple of 4 */
+
 typedef struct Sampler {
     const Sampling *sampling;
     Tracer *tracer;
     Ray *ray;                                  /* of the tracer's eye */
     Interiors at_home, elsewhere;              /* the bodies around the eye */
+    double row_x, row_y;                       /* the first place of the row ... */
+    double row[3][SAMPLER_ROW];                /* ... and what the rays of all differ in, as the plainest cameras have it: x, y, z */
 } Sampler;
 
 Sampling *sampling_new(Arena *arena, const World *w, const RenderOptions *options);
@@ -42,5 +46,10 @@ bool sampler_took_chances(const Sampler *s);
 
 /* Whole numbers are pixel centres. */
 Colour sampler_colour(Sampler *s, double x, double y);
+
+/* The same of n <= SAMPLER_ROW places side by side, whose rays are worked out four at a time; then asked one by one, other places
+ * in between at will. */
+void sampler_row(Sampler *s, double x, double y, int n);
+Colour sampler_in_row(Sampler *s, int i);
 
 #endif
