@@ -17,7 +17,8 @@ enum {
     DEPTH_BINNED = 40,                         /* below it ranges are halved by count: log8(2^32) more levels at most */
     GRID_FROM = 4096,                          /* a range of more items is sorted into a grid first */
     PER_CELL = 12,                             /* items to a cell, if they filled the space evenly */
-    CELLS_FEW = 48                             /* a range of cells with no more items becomes one of items */
+    CELLS_FEW = 48,                            /* a range of cells with no more items becomes one of items */
+    ITEMS_PER_NODE = 4
 };
 
 /* Testing an item costs about this many box tests: an indirect call, often a transform, sometimes a set operation. */
@@ -42,7 +43,8 @@ typedef struct Range {
 
 typedef struct Builder {
     Bvh *bvh;
-    Arena *arena;
+    Arena *arena;                              /* for what serves the building only */
+    Arena *world;                              /* for nodes, and nothing else until the last one stands */
     Item *item;                                /* in the order of the leaves, as far as they are placed */
     Item *in_cells;                            /* the others, cell by cell */
     uint32_t n_placed;
@@ -394,7 +396,7 @@ static uint32_t node_new(Builder *k)
 {
     Bvh *b = k->bvh;
     if (b->n_nodes == k->capacity)
-        b->node = array_grow(k->arena, b->node, b->n_nodes, &k->capacity, sizeof *b->node);
+        b->node = array_grow(k->world, b->node, b->n_nodes, &k->capacity, sizeof *b->node);
     return b->n_nodes++;
 }
 
@@ -456,7 +458,8 @@ static void build_node(Builder *k, uint32_t index, Range all, int depth)
             build_node(k, bvh_at(node.child[i]), range[i], depth + 1);
 }
 
-/* Boxes and growing nodes live in an arena of their own, so that the World keeps only what it walks. */
+/* Boxes live in an arena of their own, so that the World keeps only what it walks. Of the room for nodes, generous unless leaves are
+ * very small, what is not used is given back: it has not been touched. */
 static void *build(Arena *a, const Bounds *boxes, uint32_t n)
 {
     Arena scratch;
@@ -468,7 +471,7 @@ static void *build(Arena *a, const Bounds *boxes, uint32_t n)
     Item *item = arena_array(&scratch, Item, n);
     for (uint32_t i = 0; i < n; i++)
         item[i] = item_outward(&boxes[i], i);
-    Builder k = { .bvh = b, .arena = &scratch, .item = item, .leaf_max = n < MANY ? LEAF_FEW : LEAF_MANY,
+    Builder k = { .bvh = b, .arena = &scratch, .world = a, .capacity = n / ITEMS_PER_NODE + 2, .item = item, .leaf_max = n < MANY ? LEAF_FEW : LEAF_MANY,
                   .cost = n < MANY ? COST_FEW : COST_MANY };
     Range all = range_of(item, n, false);
     if (n >= GRID_FROM) {
@@ -476,8 +479,9 @@ static void *build(Arena *a, const Bounds *boxes, uint32_t n)
         all = range_of_cells(&k, &all, k.in_cells);
         leave_cells(&k, &all);
     }
+    b->node = arena_array(a, BvhNode, k.capacity);
     build_node(&k, node_new(&k), all, 0);
-    b->node = arena_copy(a, b->node, b->n_nodes * sizeof *b->node);
+    arena_trim(a, b->node, b->n_nodes * sizeof *b->node);
     for (uint32_t i = 0; i < n; i++)
         b->item[i] = item[i].index;
     arena_free(&scratch);

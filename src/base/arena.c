@@ -115,6 +115,15 @@ void *arena_alloc_array(Arena *a, size_t n, size_t size)
     return arena_alloc(a, n * size);
 }
 
+void arena_trim(Arena *a, void *newest, size_t bytes)
+{
+    char *end = (char *)newest + bytes;
+    a->used -= (size_t)(a->next - end);
+    if (a->clean == a->next)                   /* behind it nothing was written to either */
+        a->clean = end;
+    a->next = end;
+}
+
 void *arena_copy(Arena *a, const void *from, size_t bytes)
 {
     void *to = arena_alloc(a, bytes);

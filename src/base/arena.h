@@ -33,6 +33,9 @@ void arena_free(Arena *a);
  * `bytes`, 16 at most: what is no multiple of the alignment it needs, asks for more bytes. Never NULL. */
 void *arena_alloc(Arena *a, size_t bytes);
 
+/* Gives back what is behind the first `bytes` of the newest allocation, and was not written to. */
+void arena_trim(Arena *a, void *newest, size_t bytes);
+
 /* A copy of `bytes` bytes at `from`. */
 void *arena_copy(Arena *a, const void *from, size_t bytes);
 

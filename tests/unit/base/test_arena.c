@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 #include <cmocka.h>
 
 #include "base/arena.h"
@@ -40,6 +41,35 @@ static void rewinding_gives_back_what_came_after_the_mark(void **state)
     assert_int_equal(*kept, 42);
     assert_int_equal(a.used, m.used);
     arena_free(&a);
+}
+
+static void what_is_trimmed_away_is_handed_out_again_and_zeroed(void **state)
+{
+    (void)state;
+    for (size_t size = 1000; size < 10000000; size *= 100) {           /* within a block, and in one of its own */
+        Arena a;
+        arena_init(&a);
+        arena_alloc(&a, 100);
+        unsigned char *p = arena_alloc(&a, size);
+        for (size_t i = 0; i < size / 2; i++)
+            p[i] = 0xff;
+        arena_trim(&a, p, size / 2);
+        assert_int_equal(a.used, 100 + size / 2);
+        unsigned char *q = arena_alloc(&a, size / 4);
+        assert_true(q >= p + size / 2 && q + size / 4 <= p + size);
+        for (size_t i = 0; i < size / 4; i++)
+            assert_int_equal(q[i], 0);
+        ArenaMark m = arena_mark(&a);
+        p = arena_alloc(&a, size);
+        memset(p, 0xff, size);
+        arena_rewind(&a, m);                   /* now there is something behind what is trimmed */
+        p = arena_alloc(&a, size / 4);
+        arena_trim(&a, p, 0);
+        p = arena_alloc(&a, size);
+        for (size_t i = 0; i < size; i++)
+            assert_int_equal(p[i], 0);
+        arena_free(&a);
+    }
 }
 
 static void memory_is_zeroed_again_after_rewinding_in_a_large_block(void **state)
@@ -82,6 +112,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_is_zeroed_and_aligned),
         cmocka_unit_test(rewinding_gives_back_what_came_after_the_mark),
+        cmocka_unit_test(what_is_trimmed_away_is_handed_out_again_and_zeroed),
         cmocka_unit_test(memory_is_zeroed_again_after_rewinding_in_a_large_block),
         cmocka_unit_test(arrays_grow_and_keep_their_items),
     };
