@@ -115,39 +115,36 @@ static void begin(Compile *c, World *w, Arena *arena, const Registry *registry, 
     array_push(c->arena, &c->material, (Material){ 0 });
 }
 
-static bool is_hidden(const World *w, uint32_t i)
-{
-    return (w->prim[i].flags & PRIM_HELPER) || bounds_is_empty(w->box[i]);
-}
-
 /* Prims that can be met, by box or (unbounded) always. */
 static void build_accelerator(Compile *c)
 {
     World *w = c->w;
     uint32_t n = 0;
-    w->bounds = bounds_empty();
-    for (uint32_t i = 0; i < w->n_prims; i++)
-        if (bounds_is_finite(w->box[i]) && !is_hidden(w, i)) {
-            w->bounds = bounds_union(w->bounds, w->box[i]);
-            n++;
-        }
+    Bounds all = bounds_empty();
     Items unbounded = { 0 };
-    Bounds *box = n == w->n_prims ? w->box : arena_array(c->arena, Bounds, n);
-    w->accel_prim = arena_array(c->arena, uint32_t, n);
+    w->accel_prim = arena_array(c->arena, uint32_t, w->n_prims);
     for (uint32_t i = 0; i < w->n_prims; i++) {
-        if (is_hidden(w, i))
+        if ((w->prim[i].flags & PRIM_HELPER) || bounds_is_empty(w->box[i]))
             continue;
-        if (!bounds_is_finite(w->box[i])) {
+        if (bounds_is_finite(w->box[i])) {
+            all = bounds_union(all, w->box[i]);
+            w->accel_prim[n++] = i;
+        } else
             array_push(c->arena, &unbounded, i);
-            continue;
-        }
-        box[w->n_accel_prims] = w->box[i];
-        w->accel_prim[w->n_accel_prims++] = i;
     }
+    w->bounds = all;
+    w->n_accel_prims = n;
     w->unbounded = unbounded.data;
     w->n_unbounded = unbounded.n;
-    if (n > 0)
-        w->accel = w->accel_ops->build(c->arena, box, n);
+    if (n == 0)
+        return;
+    Bounds *box = w->box;
+    if (n < w->n_prims) {
+        box = arena_array(c->arena, Bounds, n);
+        for (uint32_t i = 0; i < n; i++)
+            box[i] = w->box[w->accel_prim[i]];
+    }
+    w->accel = w->accel_ops->build(c->arena, box, n);
 }
 
 #define TAKE(field, count, array) (w->field = c->array.data, w->count = c->array.n)

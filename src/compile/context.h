@@ -64,6 +64,7 @@ struct Compile {
     Affine to_world;                           /* scale by unit */
     const Affine *identity;                    /* of prims */
     const Affine *recent_place[RECENT_PLACES]; /* by the hash of the matrix; the newest stays */
+    const Affine *last_place;                  /* NULL, or the one that was kept or found last */
 
     ARRAY(Prim) prim;
     ARRAY(Bounds) box;
@@ -84,7 +85,7 @@ struct Compile {
 
     /* The shape being compiled. */
     const Inherited *from;
-    Affine shape_place;                        /* its own space to the world */
+    const Affine *shape_place;                 /* its own space to the world */
     Affine scaled_place, scaled_from;          /* of build_place: the last result, and what it was made from */
     double scaled_by;
     uint32_t shape_material, shape_flags;

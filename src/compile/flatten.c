@@ -47,7 +47,7 @@ Affine build_own_place(ShapeBuild *b)
 {
     Compile *c = b->compile;
     c->asked_own = true;
-    return c->shape_place;
+    return *c->shape_place;
 }
 
 uint32_t build_texture(ShapeBuild *b, const Texture *texture, const Affine *place)
@@ -64,11 +64,16 @@ uint32_t build_texture(ShapeBuild *b, const Texture *texture, const Affine *plac
     return index;
 }
 
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
 static double largest_finite(Vec3 v)
 {
     double most = 0;
     for (int axis = 0; axis < 3; axis++)
-        most = isfinite(vec3_at(v, axis)) ? fmax(most, fabs(vec3_at(v, axis))) : most;
+        most = isfinite(vec3_at(v, axis)) ? larger(most, fabs(vec3_at(v, axis))) : most;
     return most;
 }
 
@@ -77,19 +82,23 @@ static double largest_finite(Vec3 v)
 static Bounds padded(Bounds b)
 {
     static const double room = 0x1p-30;
+    if (bounds_is_finite(b))
+        return bounds_grown(b, room * larger(max_abs(b.lo), max_abs(b.hi)));
     if (isnan(b.lo.x + b.lo.y + b.lo.z) || isnan(b.hi.x + b.hi.y + b.hi.z))
         return bounds_everything();
-    double size = fmax(largest_finite(b.lo), largest_finite(b.hi));
-    return bounds_grown(b, room * (bounds_is_finite(b) ? size : fmax(size, 1)));
+    return bounds_grown(b, room * larger(larger(largest_finite(b.lo), largest_finite(b.hi)), 1));
 }
 
 static const Affine *kept_place(Compile *c, const Affine *place)
 {
     if (place->identity)
         return c->identity;
+    if (c->last_place != NULL && same_place(c->last_place, place))
+        return c->last_place;
     const Affine **recent = &c->recent_place[hash_bytes(place->m, sizeof place->m) % RECENT_PLACES];
     if (*recent == NULL || !same_place(*recent, place))
         *recent = arena_copy(c->arena, place, sizeof *place);
+    c->last_place = *recent;
     return *recent;
 }
 
@@ -162,35 +171,30 @@ static const Shared *shape_shared(Compile *c, ShapeBuild *b, const Object *o)
 /* place: the shape's own space to the scene. */
 static void shape_compile(Compile *c, const Object *o, const Inherited *from, const Affine *place)
 {
-    bool shared = (o->ops->flags & SHAPE_SHARED) != 0;
+    bool shareable = (o->ops->flags & SHAPE_SHARED) != 0;
+    bool shared = shareable && (from->may_repeat || (o->flags & OBJECT_DECLARED));         /* else there are no copies */
+    Affine in_world;
     c->from = from;
-    c->shape_place = affine_then(*place, c->to_world);
+    c->shape_place = place_within(place, &c->to_world, &in_world);
     c->asked_own = false;
     c->all_opaque = true;
     c->no_inside = false;
     ShapeBuild b = { .arena = c->arena, .object = o, .accel = c->w->accel_ops,
-                     .place = shared ? *c->identity : c->shape_place, .unit = shared ? 1 : c->unit,
+                     .place = shared ? *c->identity : *c->shape_place, .unit = shareable ? 1 : c->unit,
                      .diag = c->diag, .compile = c };
     if (!shared) {
         o->ops->compile(&b, o->params);
         c->no_inside = b.no_inside;
         return;
     }
-    Shared only;
-    const Shared *s = &only;
-    if (from->may_repeat || (o->flags & OBJECT_DECLARED))
-        s = shape_shared(c, &b, o);
-    else
-        shape_record(c, &b, o, &only);
+    const Shared *s = shape_shared(c, &b, o);
     c->all_opaque = s->opaque;
     c->no_inside = s->no_inside;
     for (uint32_t i = 0; i < s->n; i++) {
         const SharedPrim *p = &c->shared_prim.data[s->first + i];
         Affine room;
-        prim_add(c, o->ops, p->data, place_within(&p->place, &c->shape_place, &room), p->local);
+        prim_add(c, o->ops, p->data, place_within(&p->place, c->shape_place, &room), p->local);
     }
-    if (s == &only)
-        c->shared_prim.n = only.first;
 }
 
 /* ---- what an object takes from those around it ---- */

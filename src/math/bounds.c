@@ -86,7 +86,8 @@ bool bounds_is_empty(Bounds a)
 
 bool bounds_is_finite(Bounds a)
 {
-    return vec3_finite(a.lo) && vec3_finite(a.hi);
+    Vec3 sums = add(scaled(a.lo, 0), scaled(a.hi, 0));     /* 0 times what is not finite is no number */
+    return sums.x + sums.y + sums.z == 0;
 }
 
 double bounds_area(Bounds a)
