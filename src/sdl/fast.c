@@ -558,9 +558,11 @@ bool fast_argument(Parser *p, Num *number, Value **by_reference)
 const Token *fast_text_item(Parser *p)
 {
     Fast f;
-    if (!start(p, &f) || !take(&f, TOK_STRING) || !end_item(&f))
+    if (!start(p, &f))
         return NULL;
-    const Token *text = &cursor_top(p)->tokens[cursor_top(p)->at];
+    const Token *text = f.at;
+    if (!take(&f, TOK_STRING) || !end_item(&f))
+        return NULL;
     finish(p, &f);
     return text;
 }

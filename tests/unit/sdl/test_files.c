@@ -144,6 +144,10 @@ static void what_was_written_can_be_read_back(void **state)
     says("#fopen H \"o.txt\" write #for (I,1,3) #write (H,I,\",\",<I,I*2,-I>,\",\n\") #end #fclose H"
          "#fopen H \"o.txt\" read #for (I,1,3) #read (H,A,V) #debug concat(str(A,0,0),\":\",vstr(3,V,\" \",0,0),\" \") #end #debug \"\n\"",
          "1:1 2 -1 2:2 4 -2 3:3 6 -3 \n");
+    char text[64];
+    says("#fopen H \"o.txt\" write #for (I,1,2) #write (H \"abc\" \"de\" I \"f\n\") #end #fclose H", "");
+    get("o.txt", text, sizeof text);
+    assert_string_equal(text, "abcde1f\nabcde2f\n");
 }
 
 static void nothing_outside_the_folders_is_touched(void **state)
