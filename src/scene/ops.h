@@ -30,6 +30,7 @@ enum {
     SHAPE_FLAT = 2048,                         /* its normals are few, so that a branch on one is foreseen */
     SHAPE_SMOOTH = 4096,                       /* surface may give a geometric normal besides the normal */
     SHAPE_FIRST_HITS = 8192,                   /* may tell only some of its hits, those that a ray from its origin finds first */
+    SHAPE_HAS_TEXTURES = 16384,                /* surface may list textures of its own */
     SHAPE_BOUND_STAYS = 1024                   /* POV: an outermost bounded_by cuts exactly, not by its box (poly, quadric, text) */
 };
 

@@ -669,6 +669,6 @@ static Bounds extent(const void *params, const Affine *place)
 }
 
 const ShapeOps shape_blob = {
-    .keyword = "blob", .params_size = sizeof(Params), .flags = SHAPE_HAS_STURM | SHAPE_HAS_HIERARCHY | SHAPE_SHARED, .parse = parse,
+    .keyword = "blob", .params_size = sizeof(Params), .flags = SHAPE_HAS_STURM | SHAPE_HAS_HIERARCHY | SHAPE_SHARED | SHAPE_HAS_TEXTURES, .parse = parse,
     .item = item, .finish = finish, .compile = compile, .hits = hits, .inside = inside, .surface = surface, .extent = extent,
 };

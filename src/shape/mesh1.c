@@ -220,7 +220,7 @@ static void finish(Parser *p, void *params)
 
 const ShapeOps shape_mesh = {
     .keyword = "mesh", .params_size = sizeof(Params),
-    .flags = SHAPE_PATCH | SHAPE_HAS_HIERARCHY | SHAPE_HAS_UV | SHAPE_SHARED | SHAPE_SMOOTH, .parse = parse, .item = item,
+    .flags = SHAPE_PATCH | SHAPE_HAS_HIERARCHY | SHAPE_HAS_UV | SHAPE_SHARED | SHAPE_SMOOTH | SHAPE_HAS_TEXTURES, .parse = parse, .item = item,
     .finish = finish, .compile = mesh_compile, .hits = mesh_hits, .inside = mesh_inside, .surface = mesh_surface,
     .extent = mesh_extent,
 };

@@ -238,6 +238,6 @@ static void parse(Parser *p, void *params)
 
 const ShapeOps shape_mesh2 = {
     .keyword = "mesh2", .params_size = sizeof(MeshParams),
-    .flags = SHAPE_PATCH | SHAPE_HAS_HIERARCHY | SHAPE_HAS_UV | SHAPE_SHARED | SHAPE_SMOOTH, .parse = parse, .item = mesh_item,
+    .flags = SHAPE_PATCH | SHAPE_HAS_HIERARCHY | SHAPE_HAS_UV | SHAPE_SHARED | SHAPE_SMOOTH | SHAPE_HAS_TEXTURES, .parse = parse, .item = mesh_item,
     .compile = mesh_compile, .hits = mesh_hits, .inside = mesh_inside, .surface = mesh_surface, .extent = mesh_extent,
 };

@@ -1,28 +1,5 @@
 /* interior.c - lists of the bodies a ray is in, and what the inside of a body does to light (04-shading, sections 2, 7, 8). */
-#include <string.h>
-
 #include "trace/path.h"
-
-void interiors_add(Interiors *list, uint32_t interior)
-{
-    if (list->n < INTERIORS_MAX)
-        list->at[list->n++] = interior;
-}
-
-void interiors_remove(Interiors *list, uint32_t place)
-{
-    list->n--;
-    if (place < list->n)                       /* mostly it is the last */
-        memmove(&list->at[place], &list->at[place + 1], (list->n - place) * sizeof list->at[0]);
-}
-
-int interiors_find(const Interiors *list, uint32_t interior)
-{
-    for (uint32_t i = 0; i < list->n; i++)
-        if (list->at[i] == interior)
-            return (int)i;
-    return -1;
-}
 
 bool interiors_hollow(const World *w, const Interiors *list)
 {

@@ -76,6 +76,9 @@ typedef struct Coat {
     Look look;
 } Coat;
 
+/* What passes through a surface of a material, if that is the same wherever and however it is met. */
+typedef struct Pane { bool even; Rgb passes; } Pane;
+
 typedef struct Backdrop { Rgb light, through; } Backdrop;      /* a background: what it sends, what passes through it */
 
 typedef struct LightList { const uint32_t *light; uint32_t n; } LightList;     /* in World.light */
@@ -87,6 +90,7 @@ struct Tracing {
     int quality;
     bool alpha, legacy;                        /* legacy: the scene speaks a language before 3.7 */
     const Coat *coat;                          /* per texture of the World */
+    const Pane *pane;                          /* per material of the World */
     Rgb ambient_light;                         /* none under radiosity, but in old scenes */
     bool plain_sky;                            /* the same all round: */
     Colour sky[2];                             /* not seen through, and seen through */
@@ -262,9 +266,27 @@ static inline void interiors_copy(Interiors *to, const Interiors *from)        /
         memcpy(&to->at[i], &from->at[i], 4 * sizeof from->at[0]);
 }
 
-void interiors_add(Interiors *list, uint32_t interior);
-void interiors_remove(Interiors *list, uint32_t place);
-int interiors_find(const Interiors *list, uint32_t interior);          /* place, or -1 */
+static inline void interiors_add(Interiors *list, uint32_t interior)
+{
+    if (list->n < INTERIORS_MAX)
+        list->at[list->n++] = interior;
+}
+
+static inline void interiors_remove(Interiors *list, uint32_t place)
+{
+    list->n--;
+    if (place < list->n)                       /* mostly it is the last */
+        memmove(&list->at[place], &list->at[place + 1], (list->n - place) * sizeof list->at[0]);
+}
+
+static inline int interiors_find(const Interiors *list, uint32_t interior)     /* place, or -1 */
+{
+    for (uint32_t i = 0; i < list->n; i++)
+        if (list->at[i] == interior)
+            return (int)i;
+    return -1;
+}
+
 bool interiors_hollow(const World *w, const Interiors *list);
 double interior_ratio(const World *w, const Interiors *list, uint32_t interior);      /* ior here / ior around, for Fresnel */
 Rgb interior_fade(const Interior *i, double depth);                    /* depth in scene units */

@@ -215,6 +215,30 @@ static const Coat *coats_new(Arena *arena, const Tracing *tracing, const World *
     return coat;
 }
 
+/* Of layers all of one colour each; the surface is not asked for its normal, nor which side of it is seen. */
+static Pane pane_of(const Tracing *tracing, const World *w, const Material *m)
+{
+    Pane pane = { .passes = rgb_grey(1) };
+    const Texture *top = tracing->coat[m->texture].leaf.top;
+    if (top == NULL || (m->flags & (MATERIAL_HAS_INTERIOR_TEXTURE | MATERIAL_CUTAWAY)) || w->interior[m->interior].interior->caustics != 0)
+        return pane;
+    pane.even = tracing->ticket.adc_bailout <= 1;
+    for (const Texture *layer = top; layer != NULL; layer = layer->below)
+        pane.passes = rgb_mul(pane.passes, colour_transmittance(layer->pigment->colour));
+    return pane;
+}
+
+static const Pane *panes_new(Arena *arena, const Tracing *tracing, const World *w)
+{
+    Pane *pane = arena_array(arena, Pane, w->n_materials + 1);
+    for (uint32_t i = 0; i < w->n_materials; i++)
+        pane[i] = pane_of(tracing, w, &w->material[i]);
+    for (uint32_t i = 0; i < w->n_prims; i++)
+        if (w->prim[i].ops->flags & SHAPE_HAS_TEXTURES)
+            pane[w->prim[i].material].even = false;
+    return pane;
+}
+
 const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha)
 {
     Tracing *tracing = arena_new(arena, Tracing);
@@ -248,6 +272,7 @@ const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha
     }
     tracing->shadows_dim = shadows_dim(w, tracing);
     tracing->coat = coats_new(arena, tracing, w);
+    tracing->pane = panes_new(arena, tracing, w);
     hue_fill(tracing->hue);
     return tracing;
 }

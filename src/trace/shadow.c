@@ -115,11 +115,9 @@ static void pass_texture(Veil *veil, const Material *m, uint32_t texture)
     texture_resolve(&tracing->world->texture[texture], p, &veil->at, pass_leaf, veil);
 }
 
-static Rgb surface_passes(Tracer *t, const Ray *ray, const Hit *hit, Surface *surface)
+static Rgb surface_passes(const Tracer *t, const Ray *ray, const Surface *surface, const Material *m)
 {
     const World *w = t->world;
-    const Material *m = &w->material[w->prim[hit->prim].material];
-    world_surface(w, ray, hit, t->tracing->wants_uv, surface);
     Veil veil;                                 /* not cleared: few textures ask for the context */
     veil.t = t;
     veil.surface = surface;
@@ -145,7 +143,8 @@ typedef struct Walk {
     Ray ray;
     Interiors in;
     double done;                               /* how far it has come */
-    double clear;                              /* surfaces up to here coincide with the last one */
+    double clear;                              /* surfaces up to here coincide with the last one ... */
+    const Hit *last;                           /* ... once this one is looked at; NULL: it was */
     bool stepwise;                             /* a new ray begins behind each surface: some shapes tell only their first hits */
     bool in_air;                               /* fog and media of the air dim this light */
     Rgb colour;
@@ -153,8 +152,6 @@ typedef struct Walk {
 
 static void dim_by_air(Walk *walk, double to)
 {
-    if (!walk->in_air)
-        return;
     if (walk->t->world->scene->n_media > 0)
         walk->colour = rgb_mul(walk->colour, media_dims_air(walk->t, ray_at(&walk->ray, walk->done), walk->ray.d, to - walk->done));
     if (walk->t->tracing->n_fog == 0 || !interiors_hollow(walk->t->world, &walk->in))
@@ -163,13 +160,45 @@ static void dim_by_air(Walk *walk, double to)
     walk->colour = rgb_mul(walk->colour, pass.factor);
 }
 
+static void look_at(Walk *walk, const Hit *hit, Surface *surface)
+{
+    world_surface(walk->t->world, &walk->ray, hit, walk->t->tracing->wants_uv, surface);
+    double slope = fabs(dot(surface->geometric, walk->ray.d));
+    walk->clear = hit->t + 2 * surface->error / (slope > 0x1p-20 ? slope : 0x1p-20);
+}
+
+/* The last surface of an even pane is looked at when another one follows. */
+static inline bool coincides(Walk *walk, const Hit *hit)
+{
+    if (walk->last != NULL) {
+        Surface surface;
+        look_at(walk, walk->last, &surface);
+        walk->last = NULL;
+    }
+    return hit->t <= walk->clear;
+}
+
+/* behind: where a new ray begins, if the walk is stepwise. */
+static Rgb pane_passes(Walk *walk, const Hit *hit, uint32_t material, Vec3 *behind)
+{
+    const Pane *pane = &walk->t->tracing->pane[material];
+    if (pane->even && !walk->stepwise) {
+        walk->last = hit;
+        return pane->passes;
+    }
+    Surface surface;
+    look_at(walk, hit, &surface);
+    *behind = surface_offset(&surface, walk->ray.d);
+    return surface_passes(walk->t, &walk->ray, &surface, &walk->t->world->material[material]);
+}
+
 static void pass_surface(Walk *walk, const Hit *hit)
 {
     Tracer *t = walk->t;
     const World *w = t->world;
-    Surface surface;
-    walk->colour = rgb_mul(walk->colour, surface_passes(t, &walk->ray, hit, &surface));
-    uint32_t interior = w->material[w->prim[hit->prim].material].interior;
+    uint32_t material = w->prim[hit->prim].material, interior = w->material[material].interior;
+    Vec3 behind;
+    walk->colour = rgb_mul(walk->colour, pane_passes(walk, hit, material, &behind));
     const Interior *body = w->interior[interior].interior;
     int place = interiors_find(&walk->in, interior);
     if (place >= 0 && body->fade_power > 0 && body->fade_distance != 0)
@@ -177,19 +206,18 @@ static void pass_surface(Walk *walk, const Hit *hit)
     if (t->tracing->has_media)
         walk->colour = rgb_mul(walk->colour, media_dims_bodies(t, &walk->in, ray_at(&walk->ray, walk->done), walk->ray.d,
                                                                hit->t - walk->done));
-    dim_by_air(walk, hit->t);
+    if (walk->in_air)
+        dim_by_air(walk, hit->t);
     if (place >= 0)
         interiors_remove(&walk->in, (uint32_t)place);
     else
         interiors_add(&walk->in, interior);
     if (walk->stepwise) {
-        walk->ray = (Ray){ surface_offset(&surface, walk->ray.d), walk->ray.d, 0, walk->ray.t_max - hit->t };
+        walk->ray = (Ray){ behind, walk->ray.d, 0, walk->ray.t_max - hit->t };
         walk->done = walk->clear = 0;
         return;
     }
     walk->done = hit->t;
-    double slope = fabs(dot(surface.geometric, walk->ray.d));
-    walk->clear = hit->t + 2 * surface.error / (slope > 0x1p-20 ? slope : 0x1p-20);
 }
 
 /* Not for a light that an object of the scene has to pass first. */
@@ -226,6 +254,7 @@ __attribute__((noinline)) static Rgb pass_veils(const Spot *spot, uint32_t light
     walk.ray = *ray;
     walk.done = walk.clear = 0;
     walk.stepwise = (spot->t->world->features & WORLD_HAS_FIRST_HITS) != 0;
+    walk.last = NULL;
     walk.in_air = shadow_dims(spot->t, &spot->t->world->light[light]);
     walk.colour = colour;
     interiors_copy(&walk.in, spot->in);
@@ -233,7 +262,7 @@ __attribute__((noinline)) static Rgb pass_veils(const Spot *spot, uint32_t light
         sort_hits(veils->hit, veils->n);
         uint32_t n = walk.stepwise && veils->n > 0 ? 1 : veils->n;
         for (uint32_t i = 0; i < n; i++) {
-            if (veils->hit[i].t <= walk.clear)
+            if (coincides(&walk, &veils->hit[i]))
                 continue;                      /* seen as one surface, as rays that go on from it see it */
             pass_surface(&walk, &veils->hit[i]);
             if (rgb_is_zero(walk.colour))
@@ -241,12 +270,16 @@ __attribute__((noinline)) static Rgb pass_veils(const Spot *spot, uint32_t light
         }
         if (walk.stepwise ? n == 0 : !veils->overflowed)
             break;
-        if (!walk.stepwise)
-            walk.ray.t_min = veils->hit[veils->n - 1].t;
+        if (!walk.stepwise) {
+            const Hit *last = &veils->hit[veils->n - 1];
+            walk.ray.t_min = last->t;
+            coincides(&walk, last);            /* looks at it while it is there */
+        }
         if (!find_veils(walk.t, &walk.ray, light, among, veils))
             return rgb_grey(0);
     }
-    dim_by_air(&walk, walk.ray.t_max);
+    if (walk.in_air)
+        dim_by_air(&walk, walk.ray.t_max);
     return walk.colour;
 }
 
