@@ -42,8 +42,10 @@ static void area_light(Parser *p, const ObjectDraft *d, LightSource *l)
     l->area = true;
     l->axis1 = own_vector(d, parse_vec3(p));
     l->axis2 = own_vector(d, parse_next_vec3(p));
-    l->size1 = (int)parse_next_float(p);
-    l->size2 = (int)parse_next_float(p);
+    parse_comma(p);
+    l->size1 = parse_int(p);
+    parse_comma(p);
+    l->size2 = parse_int(p);
     if (l->size1 == 0 || l->size2 == 0)
         parse_fail(p, "Area size must be greater than zero.");
 }

@@ -137,6 +137,14 @@ static void looks_like_stands_at_the_light_without_shadow(void **state)
     parsed_free(s);
 }
 
+static void sizes_of_area_lights_stop_at_the_largest_int(void **state)
+{
+    (void)state;
+    Parsed *s = good(HEAD "light_source { 0, 1 area_light x, y, 2.9, 1e109 }");
+    assert_true(s->scene.object[0]->light->size1 == 2 && s->scene.object[0]->light->size2 == 2147483647);
+    parsed_free(s);
+}
+
 static void spotlights_and_cylinders_have_their_own_defaults(void **state)
 {
     (void)state;
@@ -407,6 +415,7 @@ int main(void)
         cmocka_unit_test(old_finishes_give_their_ior_to_the_interior),
         cmocka_unit_test(flags_may_be_switched_off),
         cmocka_unit_test(looks_like_stands_at_the_light_without_shadow),
+        cmocka_unit_test(sizes_of_area_lights_stop_at_the_largest_int),
         cmocka_unit_test(spotlights_and_cylinders_have_their_own_defaults),
         cmocka_unit_test(equal_plain_textures_are_one),
         cmocka_unit_test(an_untouched_texture_is_the_default_itself),
