@@ -14,10 +14,8 @@ typedef struct {
 
 static void parse_range(Parser *p, double *low, double *range)
 {
-    parse_comma(p);                            /* POV: a comma need not be followed by a number */
-    *low = parse_at_number(p) ? parse_float(p) : 0;
-    parse_comma(p);
-    double high = parse_at_number(p) ? parse_float(p) : 0;
+    *low = parse_optional_float(p, 0);
+    double high = parse_optional_float(p, 0);
     *range = high - *low;
     if (*range == 0 && (high != 0 || *low != 0)) {
         parse_warn(p, "Zero slope range; ignoring it.");

@@ -48,7 +48,6 @@ static bool fog_item(Parser *p, FogDef *f)
         if (parse_at_float(p)) {
             parse_warn(p, "Should use distance keyword.");
             f->distance = parse_float(p);
-            parse_comma(p);
             return true;
         }
         return false;
@@ -63,7 +62,7 @@ const FogDef *fog_block(Parser *p)
     if (known != NULL)
         f = *known;
     while (fog_item(p, &f))
-        parse_comma(p);
+        parse_stray_comma(p);
     block_close(p, "fog");
     return arena_copy(parse_arena(p), &f, sizeof f);
 }

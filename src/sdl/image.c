@@ -287,9 +287,9 @@ const ImageMap *image_items(Parser *p, ImageUse use, float *amount)
     ImageMap *map = arena_new(p->arena, ImageMap);
     map->repeat = (Vec2){ 1, 1 };
     read_image(p, use, true, map);
-    parse_comma(p);
+    parse_stray_comma(p);
     while (item(p, use, map, amount))
-        parse_comma(p);
+        parse_stray_comma(p);
     map->has_transparency |= map->once || map->image->translucent;
     return map;
 }

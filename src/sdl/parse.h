@@ -38,7 +38,7 @@ bool parse_at_number(Parser *p);               /* could a numeric expression sta
 /* Expressions. The _next_ forms take an optional comma first. */
 double parse_float(Parser *p);
 double parse_next_float(Parser *p);
-double parse_optional_float(Parser *p, double otherwise);      /* `[, f]`: a number after an optional comma, or nothing */
+double parse_optional_float(Parser *p, double otherwise);      /* `[,] [f]`: either may lack */
 int parse_int(Parser *p);                      /* truncated toward zero; fails on NaN, clamps to int */
 bool parse_bool(Parser *p);
 bool parse_optional_bool(Parser *p, bool otherwise);           /* `hollow`, `hollow off`, `hollow (A > B)` */
@@ -82,6 +82,7 @@ void **parse_kept(Parser *p, const void *key, uint32_t variant);
 bool parse_is_strict(const Parser *p);         /* nothing is mended: as the reference or not at all */
 /* At what the reference refuses though it has one meaning only: an error if strict, else a warning, once. */
 void parse_mend(Parser *p, const char *what);
+void parse_stray_comma(Parser *p);             /* mends one, if there is one */
 bool parse_charset_is_ascii(const Parser *p);  /* as global_settings said; strings are UTF-8 in any case */
 
 _Noreturn void parse_fail(Parser *p, const char *format, ...) __attribute__((format(printf, 2, 3)));

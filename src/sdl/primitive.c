@@ -230,8 +230,7 @@ double parse_next_float(Parser *p)
 
 double parse_optional_float(Parser *p, double otherwise)
 {
-    if (parse_accept(p, TOK_COMMA))
-        return expr_float(p);
+    parse_comma(p);
     return parse_at_number(p) ? expr_float(p) : otherwise;
 }
 
@@ -371,6 +370,12 @@ void parse_mend(Parser *p, const char *what)
     if (p->options->strict)
         parse_fail(p, "%s", what);
     warn_once(p->diag, parse_loc(p), "%s: read all the same.", what);
+}
+
+void parse_stray_comma(Parser *p)
+{
+    if (parse_accept(p, TOK_COMMA))
+        parse_mend(p, "A comma that separates nothing");
 }
 
 bool parse_charset_is_ascii(const Parser *p)

@@ -74,7 +74,7 @@ static Component new_component(Parser *p, bool cylinder)
     parse_comma(p);
     parse_accept(p, KW_STRENGTH);
     c.strength = parse_float(p);
-    parse_comma(p);
+    parse_stray_comma(p);
     c.place = affine_identity();
     while (parse_part_item(p, &c.texture, &c.place))
         ;
@@ -97,7 +97,7 @@ static bool item(Parser *p, void *params)
         array_push(parse_arena(p), &b->component, new_component(p, true));
     else
         return false;
-    parse_comma(p);
+    parse_stray_comma(p);
     return true;
 }
 

@@ -116,7 +116,7 @@ static void parse(Parser *p, void *params)
             height[(size_t)z * f->w + x] = height_of(im, (int)x, (int)(f->h - 1 - z));
     f->height = height;
     build_pyramid(parse_arena(p), f);
-    parse_comma(p);
+    parse_stray_comma(p);
 }
 
 static bool item(Parser *p, void *params)
@@ -129,7 +129,7 @@ static bool item(Parser *p, void *params)
         f->smooth = true;
     else
         return false;
-    parse_comma(p);
+    parse_stray_comma(p);
     return true;
 }
 

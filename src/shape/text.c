@@ -225,7 +225,7 @@ static void parse(Parser *p, void *params)
     Str text = parse_string(p);
     t->thickness = parse_next_float(p);
     Vec3 offset = parse_next_vec3(p);
-    parse_comma(p);
+    parse_stray_comma(p);
     lay_out(p, &font, text, offset, t);
 }
 

@@ -37,7 +37,8 @@ static void what_has_one_meaning_is_read_with_a_warning_and_strictly_refused(voi
         HEAD "#macro M(X) X #end #declare A = array[2] { M(1), 2 };", HEAD "#declare A = array[3] { #for (I, 0, 2) I, #end };",
         HEAD "#declare A = array[1][2] { { 1, #local X = 2; X } };", HEAD "cylinder { 0, x, 1 scale 2 open pigment { rgb 1 } }",
         HEAD "isosurface { function { x } scale 2 max_gradient 3 }", HEAD "mesh { triangle { 0, x, y } scale 2 inside_vector y }",
-        HEAD "blob { sphere { 0, 1, 1 } sturm sphere { x, 1, 1 } }",
+        HEAD "blob { sphere { 0, 1, 1 } sturm sphere { x, 1, 1 } }", HEAD "blob { sphere { 0, 1, 1, } }",
+        HEAD "fog { distance 1, rgb 1 }", HEAD "height_field { function 9, 9 { x } water_level 0.1, smooth }",
     };
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         Parsed *s = parsed(texts[i]);
@@ -58,6 +59,7 @@ static void commas_may_stand_behind_the_last_item_and_before_what_may_lack(void 
         HEAD "sphere { 0, 1 texture { checker texture { }, texture { }, scale 2 } }",
         HEAD "sphere { 0, 1 normal { checker normal { bumps }, normal { dents }, } }",
         HEAD "sphere { 0, 1 pigment { slope { y, , 0.8 altitude y, 0, } } }", HEAD "#for (I, 0, 4 2) #end #for (I, 0, 4, ) #end",
+        HEAD "disc { 0, z, 1, }", HEAD "sphere { 0, 1 finish { diffuse 0.5, phong 1 } normal { bumps, scale 2 } }",
         HEAD "parametric { function { u }, function { v }, function { 0 } <0,0>, <1,2> precompute 5 x, , z }",
     };
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
