@@ -1,10 +1,12 @@
 /* density_file.c - a block of voxels from a df3 file, over the unit cube. */
+#include "base/simd.h"
 #include "sdl/parse.h"
 
 typedef struct {
     unsigned size[3];
     int interpolate;                           /* 0 none, 1 linear, 2 cubic */
     int bytes;                                 /* per voxel: 1, 2, 4, big-endian */
+    double most;                               /* what they can say */
     const unsigned char *voxel;
 } Density;
 
@@ -25,6 +27,7 @@ static void parse(Parser *p, void *params)
     if (d.bytes == 0)
         fail(parse_diag(p), where, "the density file \"%.*s\" says %u x %u x %u voxels and holds %llu bytes", STR_ARGS(name),
              d.size[0], d.size[1], d.size[2], (unsigned long long)have);
+    d.most = d.bytes == 1 ? 255 : d.bytes == 2 ? 65535 : 4294967295;
     d.voxel = b + 6;
     *(Density *)params = d;
 }
@@ -38,30 +41,54 @@ static bool item(Parser *p, void *params)
     return true;
 }
 
+/* To be divided by `most`. */
+static inline double number(const unsigned char *v, int bytes)
+{
+    switch (bytes) {
+    case 1: return v[0];
+    case 2: return v[0] << 8 | v[1];
+    default: return (uint32_t)v[0] << 24 | (uint32_t)v[1] << 16 | (uint32_t)v[2] << 8 | v[3];
+    }
+}
+
 static double voxel(const Density *d, unsigned x, unsigned y, unsigned z)
 {
-    const unsigned char *v = d->voxel + (((uint64_t)z * d->size[1] + y) * d->size[0] + x) * (unsigned)d->bytes;
-    switch (d->bytes) {
-    case 1: return v[0] / 255.0;
-    case 2: return (v[0] << 8 | v[1]) / 65535.0;
-    default: return ((uint32_t)v[0] << 24 | (uint32_t)v[1] << 16 | (uint32_t)v[2] << 8 | v[3]) / 4294967295.0;
-    }
+    uint64_t at = ((uint64_t)z * d->size[1] + y) * d->size[0] + x;
+    return number(d->voxel + at * (unsigned)d->bytes, d->bytes) / d->most;
+}
+
+static unsigned wrapped(uint64_t i, unsigned size)
+{
+    return (unsigned)(i < size ? i : i % size);        /* mostly without a quotient */
+}
+
+static inline void corners(const unsigned char *v, uint64_t step[3][2], int bytes, double out[8])
+{
+    for (unsigned i = 0; i < 8; i++)
+        out[i] = number(v + step[0][i & 1] + step[1][i >> 1 & 1] + step[2][i >> 2], bytes);
 }
 
 /* The sample sits at the voxel's low corner, and the last one blends into the first. */
 static double linear(const Density *d, const unsigned cell[3], const double f[3])
 {
-    double sum = 0;
-    for (unsigned corner = 0; corner < 8; corner++) {
-        unsigned at[3];
-        double w = 1;
-        for (int a = 0; a < 3; a++) {
-            bool high = corner >> a & 1;
-            at[a] = (cell[a] + high) % d->size[a];
-            w *= high ? f[a] : 1 - f[a];
-        }
-        sum += w * voxel(d, at[0], at[1], at[2]);
+    uint64_t step[3][2], stride = (unsigned)d->bytes;
+    double v[8], w[3][2], sum = 0;
+    for (int a = 0; a < 3; a++) {
+        step[a][0] = cell[a] * stride;
+        step[a][1] = wrapped((uint64_t)cell[a] + 1, d->size[a]) * stride;
+        w[a][0] = 1 - f[a];
+        w[a][1] = f[a];
+        stride *= d->size[a];
     }
+    if (d->bytes == 1)                         /* nearly always */
+        corners(d->voxel, step, 1, v);
+    else
+        corners(d->voxel, step, d->bytes, v);
+    d4 most = d4_set(d->most);
+    d4_store(v, d4_div(d4_load(v), most));
+    d4_store(v + 4, d4_div(d4_load(v + 4), most));
+    for (unsigned i = 0; i < 8; i++)
+        sum += w[0][i & 1] * w[1][i >> 1 & 1] * w[2][i >> 2] * v[i];
     return sum;
 }
 
@@ -78,7 +105,7 @@ static double cubic(const Density *d, const unsigned cell[3], const double f[3])
     for (int a = 0; a < 3; a++)
         for (unsigned k = 0; k < 4; k++)
             /* POV: one before the first is (2^64 - 1) mod size, not the last. */
-            at[a][k] = (unsigned)(((uint64_t)cell[a] + k - 1) % d->size[a]);
+            at[a][k] = wrapped((uint64_t)cell[a] + k - 1, d->size[a]);
     float along_x[4];
     for (int i = 0; i < 4; i++) {
         float along_y[4];
