@@ -5,14 +5,16 @@
 #include "math/chi_square.h"
 #include "trace/path.h"
 
-enum { CLOUDS_MAX = 32 };                      /* media at one place; more are not seen */
+enum { CLOUDS_MAX = 32,                        /* media at one place; more are not seen */
+       DENSITIES_MAX = 8 };                    /* of a medium, with which one does not go on when the product is known to be 0 */
 
 typedef struct Cloud {
     const Media *media;
     const Affine *place;                       /* NULL: identity */
+    Rgb lost;                                  /* of light, at a density of 1 */
 } Cloud;
 
-typedef struct Matter { Rgb extinction, emission, scattering; } Matter;        /* of all media at one place */
+typedef struct Matter { Rgb extinction, emission, scattering; } Matter;        /* of media at one place */
 
 typedef struct Stretch {
     Tracer *t;
@@ -26,8 +28,8 @@ typedef struct Stretch {
     const double *threshold;                   /* of its adaptive sampling, by count */
     float aa_threshold;
     bool scatters;
-    bool even;                                 /* the same matter everywhere: */
-    Matter matter;
+    bool even;                                 /* no densities: the same matter everywhere */
+    Matter matter;                             /* at a density of 1 */
     uint32_t n_light_spans;
 } Stretch;
 
@@ -40,11 +42,22 @@ typedef struct Sample { Rgb light, depth; } Sample;
 
 /* ---- what is there ---- */
 
+static const Matter NOTHING = { { 0, 0, 0 }, { 0, 0, 0 }, { 0, 0, 0 } };
+
+static inline void matter_add(Matter *to, const Media *m, Rgb lost, Rgb density)
+{
+    to->extinction = rgb_add(to->extinction, rgb_mul(density, lost));
+    to->emission = rgb_add(to->emission, rgb_mul(density, m->emission));
+    to->scattering = rgb_add(to->scattering, rgb_mul(density, m->scattering.colour));
+}
+
 static void add_cloud(Stretch *s, const Media *media, const Affine *place)
 {
     if (s->n == CLOUDS_MAX)
         return;
-    s->cloud[s->n++] = (Cloud){ media, place };
+    Rgb lost = rgb_add(media->absorption, rgb_scaled(media->scattering.colour, media->scattering.extinction));
+    s->cloud[s->n++] = (Cloud){ media, place, lost };
+    matter_add(&s->matter, media, lost, rgb_grey(1));
     if (s->ruling == NULL || media->intervals > s->ruling->intervals)
         s->ruling = media;
     s->aa_threshold = s->n == 1 ? media->aa_threshold : fminf(s->aa_threshold, media->aa_threshold);
@@ -62,26 +75,41 @@ static void add_bodies(Stretch *s, const Interiors *in)
     }
 }
 
-static Rgb density_at(const Cloud *c, Vec3 p)
+/* The last one is asked first, which often is the shape that the others fill: where it is 0, they are not asked. */
+static __attribute__((noinline)) Rgb density_product(const Media *m, Vec3 p)
 {
-    Rgb density = rgb_grey(1);
-    if (c->place != NULL)
-        p = affine_point_back(c->place, p);
-    for (uint32_t i = 0; i < c->media->n_density; i++)
-        density = rgb_mul(density, rgb_of(pigment_colour(c->media->density[i], p, NULL, NULL)));
+    uint32_t n = m->n_density, i = n;
+    Rgb factor[DENSITIES_MAX], density = rgb_grey(1);
+    while (i > 0 && n <= DENSITIES_MAX) {
+        i--;
+        factor[i] = rgb_of(pigment_colour(m->density[i], p, NULL, NULL));
+        if (rgb_is_zero(factor[i]))
+            return rgb_grey(0);
+    }
+    for (i = 0; i < n; i++)
+        density = rgb_mul(density, n <= DENSITIES_MAX ? factor[i] : rgb_of(pigment_colour(m->density[i], p, NULL, NULL)));
     return density;
+}
+
+static inline Rgb density_at(const Media *m, Vec3 p)
+{
+    if (m->n_density == 1)
+        return rgb_of(pigment_colour(m->density[0], p, NULL, NULL));
+    return m->n_density == 0 ? rgb_grey(1) : density_product(m, p);
 }
 
 static Matter matter_at(const Stretch *s, Vec3 p)
 {
-    Matter all = { rgb_grey(0), rgb_grey(0), rgb_grey(0) };
+    Matter all = NOTHING;
+    Vec3 local = p;
+    const Affine *place = NULL;
     for (uint32_t i = 0; i < s->n; i++) {
-        const Media *m = s->cloud[i].media;
-        Rgb density = density_at(&s->cloud[i], p);
-        Rgb lost = rgb_add(m->absorption, rgb_scaled(m->scattering.colour, m->scattering.extinction));
-        all.extinction = rgb_add(all.extinction, rgb_mul(density, lost));
-        all.emission = rgb_add(all.emission, rgb_mul(density, m->emission));
-        all.scattering = rgb_add(all.scattering, rgb_mul(density, m->scattering.colour));
+        const Cloud *c = &s->cloud[i];
+        if (c->place != place) {
+            place = c->place;
+            local = place != NULL ? affine_point_back(place, p) : p;
+        }
+        matter_add(&all, c->media, c->lost, density_at(c->media, local));
     }
     return all;
 }
@@ -128,6 +156,8 @@ static Rgb light_at(const Stretch *s, Vec3 p, double at)
 
 static Rgb dimmed(Rgb depth)
 {
+    if (depth[0] == depth[1] && depth[1] == depth[2])      /* often grey, and clear to begin with */
+        return rgb_grey(expf(-depth[0]));
     return rgb(expf(-depth[0]), expf(-depth[1]), expf(-depth[2]));
 }
 
@@ -280,6 +310,8 @@ static Sums sample_part(const Stretch *s, const Part *part)
 
 /* ---- where lights reach ---- */
 
+static const double FAR_OFF = 0x1p-30;         /* relative to what was added up */
+
 static bool in_reach(const Light *light, Vec3 v)
 {
     double k = dot(v, light->axis);
@@ -294,30 +326,44 @@ static void add_root(double t, double length, double *root, int *n)
         root[(*n)++] = t;
 }
 
-/* Where |v + t d| is as far from the axis as the falloff says: roots of a quadratic in t. */
-static int reach_ends(const Light *light, Vec3 v, Vec3 d, double length, double *root)
+/* a t^2 + 2 b t + c: above 0 where v + t d is nearer to the axis than the falloff says; for spots, also behind them. */
+typedef struct Within { double a, b, c, disc, v2; } Within;
+
+static Within within_falloff(const Light *light, Vec3 v, Vec3 d, double vk, double dk)
 {
-    double vk = dot(v, light->axis), dk = dot(d, light->axis), a, b, c;
+    Within w = { .v2 = dot(v, v) };
+    double f2 = light->falloff * light->falloff;
     if (light->def->kind == LIGHT_SPOT) {
-        double f2 = light->falloff * light->falloff;
-        a = dk * dk - f2 * dot(d, d);
-        b = dk * vk - f2 * dot(v, d);
-        c = vk * vk - f2 * dot(v, v);
+        w.a = dk * dk - f2 * dot(d, d);
+        w.b = dk * vk - f2 * dot(v, d);
+        w.c = vk * vk - f2 * w.v2;
     } else {
-        a = dot(d, d) - dk * dk;
-        b = dot(v, d) - vk * dk;
-        c = dot(v, v) - vk * vk - light->falloff * light->falloff;
+        w.a = dk * dk - dot(d, d);
+        w.b = vk * dk - dot(v, d);
+        w.c = f2 - (w.v2 - vk * vk);
     }
+    w.disc = w.b * w.b - w.a * w.c;
+    return w;
+}
+
+/* Surely, whatever is rounded: most rays pass most spots far off. */
+static bool never_within(const Within *w)
+{
+    return w->disc < -FAR_OFF * (w->b * w->b + fabs(w->a * w->c)) && w->c < -FAR_OFF * w->v2 && w->a < -FAR_OFF;
+}
+
+/* Where the ray crosses the falloff or passes the light. */
+static int reach_ends(const Within *w, double vk, double dk, double length, double *root)
+{
     int n = 0;
     if (dk != 0)
         add_root(-vk / dk, length, root, &n);
-    double disc = b * b - a * c;
-    if (disc > 0) {
-        double q = b > 0 ? -b - sqrt(disc) : -b + sqrt(disc);
-        if (a != 0)
-            add_root(q / a, length, root, &n);
+    if (w->disc > 0) {
+        double q = w->b > 0 ? -w->b - sqrt(w->disc) : -w->b + sqrt(w->disc);
+        if (w->a != 0)
+            add_root(q / w->a, length, root, &n);
         if (q != 0)
-            add_root(c / q, length, root, &n);
+            add_root(w->c / q, length, root, &n);
     }
     return n;
 }
@@ -340,8 +386,11 @@ static bool light_span(const Stretch *s, const Light *light, double *from, doubl
     if (light->def->kind == LIGHT_POINT || (light->def->kind == LIGHT_SPOT && light->falloff <= 0))
         return true;
     Vec3 v = sub(s->o, light->location);
-    double end[5] = { 0 };
-    int n = 1 + reach_ends(light, v, s->d, s->length, end + 1);
+    double vk = dot(v, light->axis), dk = dot(s->d, light->axis), end[5] = { 0 };
+    Within within = within_falloff(light, v, s->d, vk, dk);
+    if (never_within(&within))
+        return false;
+    int n = 1 + reach_ends(&within, vk, dk, s->length, end + 1);
     end[n++] = s->length;
     sort(end, n);
     bool found = false;
@@ -421,8 +470,6 @@ static Haze through(Stretch *s)
     Haze haze = { { 0, 0, 0 }, { 0, 0, 0 } };
     int intervals = s->ruling->intervals;
     s->threshold = tracing_media_threshold(s->t->tracing, s->ruling);
-    if (s->even)
-        s->matter = matter_at(s, s->o);
     if (s->in != NULL)
         add_lights(s);
     uint32_t n = s->n_light_spans > 0 ? cut(s) : 0;
@@ -466,6 +513,7 @@ static void stretch_start(Stretch *s, Tracer *t, Vec3 o, Vec3 d, double depth, c
     s->ruling = NULL;
     s->scatters = false;
     s->even = true;
+    s->matter = NOTHING;
     s->n_light_spans = 0;
 }
 
