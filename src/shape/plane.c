@@ -44,10 +44,12 @@ static void compile(ShapeBuild *b, const void *params)
 static void hits(const void *shape, const Ray *ray, HitSink *sink)
 {
     const Params *plane = shape;
-    double slope = dot(plane->normal, ray->d);
+    double slope = dot(plane->normal, ray->d), way = plane->distance - dot(plane->normal, ray->o);
+    if (way * slope < 0 && sink->t_min >= 0)   /* behind the ray: most rays that leave a floor */
+        return;
     if (fabs(slope) <= FLAT * max_abs(ray->d))
         return;
-    hit_add(sink, (plane->distance - dot(plane->normal, ray->o)) / slope, 0);
+    hit_add(sink, way / slope, 0);
 }
 
 static void fan_hits(const void *shape, const Fan *fan, FanHits *out)

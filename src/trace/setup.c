@@ -157,6 +157,9 @@ static bool shadows_dim(const World *w, const Tracing *tracing)
 {
     if (tracing->has_media || tracing->air_dims)
         return false;
+    for (uint32_t i = 0; i < w->n_lights; i++)
+        if (w->light[i].def->area && w->light[i].def->jitter)
+            return false;
     for (uint32_t i = 0; i < w->n_interiors; i++)
         if (!interior_dims(w->interior[i].interior))
             return false;

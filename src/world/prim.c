@@ -85,7 +85,7 @@ static __attribute__((noinline)) bool some_unlisted(const World *w, const CsgNod
     return ask.yes;
 }
 
-static bool some_part(const World *w, const CsgNode *node, uint32_t self, const Vec3 *p, uint32_t skip)
+static inline bool some_part(const World *w, const CsgNode *node, uint32_t self, const Vec3 *p, uint32_t skip)
 {
     const CsgPart *part = w->csg_part + node->first, *end = part + node->n_listed;
     for (; part < end; part++)
@@ -160,17 +160,16 @@ static __attribute__((noinline)) bool bounds_let_through(Search *search, uint32_
     return true;
 }
 
-/* POV: what a ray does not see hides nothing from it in a merge, but still cuts in an intersection. */
-static bool node_keeps(const World *w, const CsgNode *node, uint32_t self, const Vec3 *p, uint32_t skip)
+/* POV: what a ray does not see hides nothing from it in a merge, but still cuts in an intersection. BOUND nodes let all count, as
+ * bounds_let_through has found. */
+static inline bool node_keeps(const World *w, const CsgNode *node, uint32_t self, const Vec3 *p, uint32_t skip)
 {
-    if (node->flags & CSG_BOUND)
-        return true;                           /* as bounds_let_through has found */
-    if (node->op == CSG_ALL)
-        return !some_part(w, node, self, p, 0);
-    return !(node->flags & CSG_MERGE) || !some_part(w, node, self, p, skip);
+    if (node->op == CSG_ALL ? node->flags & CSG_BOUND : !(node->flags & CSG_MERGE))
+        return true;
+    return !some_part(w, node, self, p, node->op == CSG_ALL ? 0 : skip);
 }
 
-static bool csg_keeps(const Search *search, double t)
+static inline bool csg_keeps(const Search *search, double t)
 {
     const World *w = search->world;
     Vec3 p = ray_at(search->ray, t);
@@ -486,9 +485,10 @@ ALONE static void placed_surface(const World *w, const Prim *prim, const Ray *ra
     Vec3 local = ray_at(ray, hit->t);
     out->error = world_error;
     if (!place->identity) {
-        Vec3 o = affine_apply(place->inv, ray->o), d = affine_apply_linear(place->inv, ray->d);
-        out->error = error_at(o, d, hit->t);
-        local = add(o, scaled(d, hit->t));
+        Ray own;
+        ray_carried(place->inv, ray, &own);
+        out->error = error_at(own.o, own.d, hit->t);
+        local = ray_at(&own, hit->t);
     }
     out->p = local;
     bool smooth = (ops->flags & SHAPE_SMOOTH) != 0;
