@@ -9,6 +9,8 @@
 typedef struct JuliaSet {
     Vec4 c, slice;                             /* slice: normalised */
     double slice_distance;
+    bool level;                                /* the slice is one of a constant fourth coordinate, as nearly all are: */
+    double fourth;
     bool hypercomplex, cube;                   /* cube: of quaternions alone */
     int n;                                     /* steps of an orbit */
     double step;                               /* the least along a ray */
@@ -20,8 +22,8 @@ static const double JULIA_ACCURACY = 1e-7;
 /* The fourth coordinate comes from the slice. */
 static inline Vec4 julia_start(const JuliaSet *j, Vec3 p)
 {
-    double w = (j->slice_distance - (j->slice.x * p.x + j->slice.y * p.y + j->slice.z * p.z)) / j->slice.t;
-    return (Vec4){ p.x, p.y, p.z, w };
+    double t = j->level ? j->fourth : (j->slice_distance - (j->slice.x * p.x + j->slice.y * p.y + j->slice.z * p.z)) / j->slice.t;
+    return (Vec4){ p.x, p.y, p.z, t };
 }
 
 /* What is known of points on o + s u, the first at s, each a least step behind the one before. */

@@ -356,6 +356,8 @@ static void compile(ShapeBuild *b, const void *params)
     Julia *out = build_data(b, sizeof *out);
     out->set = (JuliaSet){ .c = p->c, .slice = p->slice, .slice_distance = p->slice_distance, .hypercomplex = p->hypercomplex,
                            .cube = p->cube, .n = p->n, .step = 1 / p->precision };
+    out->set.level = p->slice.x == 0 && p->slice.y == 0 && p->slice.z == 0;
+    out->set.fourth = p->slice_distance / p->slice.t;
     bound(p, &out->set.radius, &out->set.escape);
     out->map = p->map;
     out->exponent = p->exponent;

@@ -61,6 +61,8 @@ typedef struct { Lanes x, y, z, t; } Points;   /* t: the fourth coordinate */
 
 INLINE Points started(const JuliaSet *j, Lanes x, Lanes y, Lanes z)
 {
+    if (j->level)
+        return (Points){ x, y, z, all(j->fourth) };
     return (Points){ x, y, z, (j->slice_distance - (j->slice.x * x + j->slice.y * y + j->slice.z * z)) / j->slice.t };
 }
 
