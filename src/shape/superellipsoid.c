@@ -7,7 +7,8 @@
 #include "shape/shape.h"
 
 typedef struct { double e, n; } Params;
-typedef struct { double p; int doublings; } Exponent;      /* p may be infinite; p = 2^doublings, or -1 */
+/* p may be infinite; p = 2^doublings, or -1; the mean is at least share (a + b). */
+typedef struct { double p; int doublings; double share; } Exponent;
 typedef struct { Exponent p, q; } Super;                   /* 2/e, 2/n */
 typedef struct { double f, slope; } Sample;                /* along the ray */
 
@@ -23,7 +24,7 @@ static void parse(Parser *p, void *params)
 static Exponent exponent(double p)
 {
     int e;
-    return (Exponent){ p, isfinite(p) && frexp(p, &e) == 0.5 && e >= 1 && e <= 5 ? e - 1 : -1 };
+    return (Exponent){ p, isfinite(p) && frexp(p, &e) == 0.5 && e >= 1 && e <= 5 ? e - 1 : -1, p < 1 ? 1 : pow(2, 1 / p - 1) };
 }
 
 static void compile(ShapeBuild *b, const void *params)
@@ -43,7 +44,7 @@ static double rough_pow(double x, double y)
     return (double)powf((float)x, (float)y);
 }
 
-static const double ROUGH = 1e-4;              /* what is larger than this has the right sign */
+static const double ROUGH = 1e-4, EXACT = 1e-13;   /* values larger than this have the right sign */
 
 /* (a^p + b^p)^(1/p) for a, b >= 0, and its derivatives. */
 static inline double mean(Power *power, double a, double b, Exponent e, double *da, double *db)
@@ -91,8 +92,16 @@ static Sample rough_sample(const Super *s, Vec3 o, Vec3 d, double t)
     return sample_with(rough_pow, s, o, d, t);
 }
 
+/* A lower bound of the norm that is linear between the planes of the axes. */
+static double at_least(const Super *s, Vec3 p)
+{
+    return s->q.share * (s->p.share * (fabs(p.x) + fabs(p.y)) + fabs(p.z));
+}
+
 static bool is_above(const Super *s, Vec3 o, Vec3 d, double t)
 {
+    if (at_least(s, add(o, scaled(d, t))) > 1 + 1e-9)
+        return true;
     double f = rough_sample(s, o, d, t).f;
     return (fabs(f) > ROUGH ? f : sample(s, o, d, t).f) > 0;
 }
@@ -143,14 +152,21 @@ static bool turning_point(const Super *s, Vec3 o, Vec3 d, double a, double b, bo
 }
 
 /* Neighbouring pieces are given the same signs where they meet, so that no root falls between them. */
-static void search(const Super *s, Vec3 o, Vec3 d, const double end[2], const bool above[2], double shift, double len,
+static void search(const Super *s, Vec3 o, Vec3 d, const double end[2], const bool above[2], double start, double shift, double len,
                    HitSink *sink)
 {
     double a = end[0], b = end[1], turn;
     if (above[0] != above[1]) {
+        if (s->p.p <= 1 && s->q.p <= 1 && a < start && start < b) {      /* concave: one root, and most rays have just left it */
+            double f = sample(s, o, d, start).f;
+            if (fabs(f) > EXACT && (f > 0) == above[1])
+                return;
+        }
         hit_add(sink, shift + closed_in(s, o, d, a, b, above[0]) / len, 0);
         return;
     }
+    if (above[0] && lesser(at_least(s, add(o, scaled(d, a))), at_least(s, add(o, scaled(d, b)))) > 1 + 1e-9)
+        return;
     double step = 1e-12 * (b - a);             /* slopes are those on this side of the planes */
     bool leaving = is_rising(s, o, d, a + step) == above[0], coming = is_rising(s, o, d, b - step) == above[0];
     if (!leaving && coming && turning_point(s, o, d, a, b, above[0], &turn)) {
@@ -220,7 +236,7 @@ static void convex_hits(const Super *s, Vec3 o, Vec3 d, double in, double out, d
     if (in < start) {                          /* the ray starts in the cube: on its way out, or in the body? */
         Sample at = sample(s, o, d, start);
         within = at.f < -1e-9;
-        if (at.f > 1e-9 && at.slope >= 0)
+        if (at.f > EXACT && at.slope >= 0)     /* most have just left it */
             return;
     }
     if (!within) {
@@ -263,10 +279,14 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
         cut[at] = t;
     }
     cut[++n] = last;
-    bool above[2] = { true, true };            /* of the surface: at the ends of the cube */
-    for (int i = 0; i < n; i++) {
+    double start = (ray->t_min - shift) * len;
+    int i = 0;
+    while (i < n && cut[i + 1] < start - 1e-9)
+        i++;
+    bool above[2] = { i == 0 || i == n || is_above(s, o, d, cut[i]) };   /* the surface, as the ends of the cube are */
+    for (; i < n && shift + cut[i] / len <= hit_limit(sink); i++) {
         above[1] = i + 1 == n || is_above(s, o, d, cut[i + 1]);
-        search(s, o, d, &cut[i], above, shift, len, sink);
+        search(s, o, d, &cut[i], above, start, shift, len, sink);
         above[0] = above[1];
     }
 }
