@@ -15,7 +15,7 @@ NoiseTables noise_tables;
 static const NoiseKernel *const kernels[] = CPU_TABLE(noise_kernel);
 static const NoiseKernel *kernel;
 
-const double noise_gradients[267] = {
+static const double gradients[NOISE_GRADIENTS] = {
     -1, 0.604974, -0.937102, 0.414115, 0.576226, -0.0161593, 0.432334, 0.103685, 0.590539, 0.0286412, 0.46981,
     -0.84622, -0.0734112, -0.304097, -0.40206, -0.210132, -0.919127, 0.652033, -0.83151, -0.183948, -0.671107,
     0.852476, 0.043595, -0.404532, 0.75494, -0.335653, 0.618433, 0.605707, 0.708583, -0.477195, 0.899474, 0.490623,
@@ -57,8 +57,18 @@ static void make_hash(NoiseTables *t)
     }
     for (int i = 0; i < 4096; i++)
         t->hash[4096 + i] = t->hash[i];
-    for (int i = 0; i < 8192; i++)
-        t->corner[i] = (uint8_t)(t->hash[i] & 255);
+}
+
+static void make_gradients(NoiseTables *t)
+{
+    enum { ROW = sizeof t->gradient[0] / sizeof t->gradient[0][0] };
+    for (int i = 0; i < NOISE_GRADIENTS; i++)
+        for (int copy = 0; copy < 4; copy++)
+            t->gradient[copy][i + copy] = gradients[i];
+    for (int i = 0; i < 8192; i++) {
+        int from = t->hash[i] & 255, copy = -from & 3;
+        t->corner[i] = (uint16_t)(copy * ROW + from + copy);
+    }
 }
 
 static void make_generator3(void)
@@ -121,6 +131,7 @@ static void make_random(NoiseTables *t)
 __attribute__((constructor)) static void make_tables(void)
 {
     make_hash(&noise_tables);
+    make_gradients(&noise_tables);
     make_random(&noise_tables);
     kernel = kernels[cpu_isa()];
 }

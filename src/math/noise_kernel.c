@@ -178,7 +178,7 @@ static inline bool spots_set(Spots *spots, const Vec3 *p, double first, double s
  * in the images that functions make, have no part in the upper layer: its weights are 0. */
 #define FOR_CORNERS(spots, k, first, each)                                                                             \
     const uint16_t *h = noise_tables.hash;                                                                             \
-    const uint8_t *last = noise_tables.corner;                                                                         \
+    const uint16_t *last = noise_tables.corner;                                                                         \
     unsigned ix = (unsigned)(spots)->cell[k][1], iy = (unsigned)(spots)->cell[k][2], iz = (unsigned)(spots)->cell[k][3]; \
     unsigned h0 = h[ix], h1 = h[ix + 1];                                                                               \
     unsigned h00 = h[h0 ^ iy], h10 = h[h1 ^ iy], h01 = h[h0 ^ (iy + 1)], h11 = h[h1 ^ (iy + 1)];                       \
@@ -195,7 +195,7 @@ static inline bool spots_set(Spots *spots, const Vec3 *p, double first, double s
 
 #define CORNER(spots, k, hash, x, y, z, each)                                                                          \
     {                                                                                                                  \
-        const double *table = noise_gradients + last[hash];                                                            \
+        const double *table = noise_tables.gradient[0] + last[hash];                                                   \
         Quad factors = ((spots)->low[k] - (Quad){ 0, x, y, z }) * (spots)->weight[z][k][(x) + 2 * (y)];                \
         each                                                                                                           \
     }

@@ -137,7 +137,7 @@ static Vec3 cubic(Vec3 p)
     return vec3(1 - middle(x / az) / 4, 1.0 / 3 + middle(y / az) / 3, az);
 }
 
-static __attribute__((noinline)) Vec3 warped(const Warp *w, Vec3 p)
+static Vec3 warped(const Warp *w, Vec3 p)
 {
     switch (w->kind) {
     case WARP_TRANSFORM: return affine_point_back(&w->transform, p);
@@ -164,13 +164,24 @@ static inline void keep_within_limits(Vec3 *p)
         *p = vec3(limited(p->x), limited(p->y), limited(p->z));
 }
 
-/* The point stays in registers for its transforms: a pair of numbers just stored one by one cannot soon be loaded as one. */
+static __attribute__((noinline)) void warp(const Warp *w, Vec3 *p)
+{
+    *p = warped(w, *p);
+}
+
+/* The point is read number by number and stays in registers for its transforms: a pair just stored as two cannot soon be loaded as one. */
 void chain_apply(const WarpChain *chain, bool turbulence, const Vec3 *from, Vec3 *to)
 {
-    Vec3 p = *from;
+    Vec3 p = vec3(from->x, from->y, from->z);
     for (uint32_t i = 0; i < chain->n; i++) {
         const Warp *w = &chain->warp[i];
-        p = w->kind == WARP_TRANSFORM ? affine_point_back(&w->transform, p) : warped(w, p);
+        if (w->kind == WARP_TRANSFORM) {
+            p = affine_point_back(&w->transform, p);
+        } else {
+            *to = p;
+            warp(w, to);
+            p = *to;
+        }
     }
     *to = p;
     if (turbulence && chain->has_turbulence)
