@@ -11,7 +11,7 @@
 
 #include "base/array.h"
 
-enum { FIRST_BLOCK = 1 << 14, LARGEST_STEP = 1 << 24, MOST_ALIGN = 16, LINE = 64, MAPPED_FROM = 1 << 21 };
+enum { FIRST_BLOCK = 1 << 14, LARGEST_STEP = 1 << 24, LINE = 64, MAPPED_FROM = 1 << 21 };
 
 struct ArenaBlock {
     ArenaBlock *older;
@@ -80,18 +80,12 @@ static char *align_up(char *p, size_t align)
     return over ? p + (align - over) : p;
 }
 
-/* Sizes are multiples of what their types are aligned to. */
-static size_t align_of(size_t bytes)
-{
-    size_t power = bytes & -bytes;             /* the largest power of two that divides it */
-    return bytes % LINE == 0 ? LINE : power < MOST_ALIGN ? power : MOST_ALIGN;
-}
-
-void *arena_alloc(Arena *a, size_t bytes)
+/* A new block, memory that has been used before, or nothing out of the ordinary. */
+void *arena_alloc_slow(Arena *a, size_t bytes)
 {
     if (bytes > SIZE_MAX / 4 || (a->limit && a->used + bytes > a->limit))
         out_of_memory(a);
-    size_t align = align_of(bytes);
+    size_t align = arena_align(bytes);
     if (!a->block)
         add_block(a, bytes);
     char *p = align_up(a->next, align);

@@ -29,9 +29,26 @@ typedef struct ArenaMark {
 void arena_init(Arena *a);
 void arena_free(Arena *a);
 
+void *arena_alloc_slow(Arena *a, size_t bytes);
+
+/* Sizes are multiples of what their types are aligned to. */
+static inline size_t arena_align(size_t bytes)
+{
+    size_t power = bytes & -bytes;             /* the largest power of two that divides it */
+    return bytes % 64 == 0 ? 64 : power < 16 ? power : 16;
+}
+
 /* Zeroed. Aligned to 64 bytes when `bytes` is a multiple of it (whole lines of the cache), otherwise to the power of two that divides
  * `bytes`, 16 at most: what is no multiple of the alignment it needs, asks for more bytes. Never NULL. */
-void *arena_alloc(Arena *a, size_t bytes);
+static inline void *arena_alloc(Arena *a, size_t bytes)
+{
+    char *p = a->next + (-(uintptr_t)a->next & (arena_align(bytes) - 1));
+    if (p < a->clean || p > a->end || (size_t)(a->end - p) <= bytes || a->limit != 0)
+        return arena_alloc_slow(a, bytes);
+    a->next = a->clean = p + bytes;
+    a->used += bytes;
+    return p;
+}
 
 /* Gives back what is behind the first `bytes` of the newest allocation, and was not written to. */
 void arena_trim(Arena *a, void *newest, size_t bytes);

@@ -10,11 +10,19 @@
 
 double build_unit(double size)
 {
-    int exponent;
-    if (!isfinite(size) || size == 0)
+    const uint64_t exponent = (uint64_t)0x7ff << 52;
+    uint64_t bits;
+    memcpy(&bits, &size, sizeof bits);
+    bits &= exponent;                          /* without its digits it is a power of two, mostly */
+    if (bits == exponent || size == 0)
         return 1;
-    frexp(size, &exponent);
-    return ldexp(1, exponent - 1);
+    if (bits == 0) {
+        int power;
+        frexp(size, &power);
+        return ldexp(1, power - 1);
+    }
+    memcpy(&size, &bits, sizeof size);
+    return size;
 }
 
 void *build_data(ShapeBuild *b, size_t bytes)

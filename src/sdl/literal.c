@@ -1,7 +1,7 @@
 /* literal.c - see literal.h: numbers, vectors, arguments of macros, pigments and textures of one colour.
  *
- * A Lexer is changed in a copy, which is dropped when the attempt fails; the place is handed from step to step, NULL from where
- * something else stands. */
+ * The place is handed from step to step, NULL from where something else stands; then the lines that were counted on the way are not
+ * counted. */
 #include "sdl/literal.h"
 
 #include <string.h>
@@ -9,13 +9,22 @@
 #include "sdl/lex.h"
 #include "sdl/number.h"
 
-/* Ends an attempt: it has come to s, or failed. */
-static inline bool keep(Lexer *lexer, Lexer *l, const char *s)
+typedef struct Line { const char *start; uint32_t number; } Line;
+
+static inline Line line_of(const Lexer *l)
 {
-    if (s == NULL)
+    return (Line){ l->line_start, l->line };
+}
+
+/* Ends an attempt that began in that line: it has come to s, or failed. */
+static inline bool keep(Lexer *l, Line line, const char *s)
+{
+    if (s == NULL) {
+        l->line_start = line.start;
+        l->line = line.number;
         return false;
+    }
     l->at = s;
-    *lexer = *l;
     return true;
 }
 
@@ -75,59 +84,60 @@ static bool ends(const char *s)
     return *s == ',' || *s == '}' || *s == '<' || *s == ')';
 }
 
-bool literal_vector(Lexer *lexer, LiteralBefore before, double out[3])
+static const char *vector(Lexer *l, LiteralBefore before, double out[3])
 {
-    Lexer l = *lexer;
-    const char *s = l.at;
+    const char *s = l->at;
     if (before != LITERAL_INSIDE) {
-        s = before == LITERAL_COMMA ? comma(&l, s) : lex_blank(&l, s);
+        s = before == LITERAL_COMMA ? comma(l, s) : lex_blank(l, s);
         if (*s++ != '<')
-            return false;
+            return NULL;
     }
-    s = numbers(&l, s, 3, out);
+    s = numbers(l, s, 3, out);
     if (s == NULL)
-        return false;
-    s = lex_blank(&l, s);
-    if (!ends(s) && !is_digit(*s))
-        return false;
-    return keep(lexer, &l, s);
+        return NULL;
+    s = lex_blank(l, s);
+    return ends(s) || is_digit(*s) ? s : NULL;
 }
 
-bool literal_number(Lexer *lexer, LiteralBefore before, double *out)
+bool literal_vector(Lexer *l, LiteralBefore before, double out[3])
 {
-    Lexer l = *lexer;
-    const char *s = number(&l, before == LITERAL_COMMA ? comma(&l, l.at) : l.at, out);
-    if (s == NULL || !ends(s))
-        return false;
-    return keep(lexer, &l, s);
+    Line line = line_of(l);
+    return keep(l, line, vector(l, before, out));
 }
 
-bool literal_numbers(Lexer *lexer, int n, double *out)
+bool literal_number(Lexer *l, LiteralBefore before, double *out)
 {
-    Lexer l = *lexer;
-    const char *s = mark(&l, l.at, '<');
-    return s != NULL && keep(lexer, &l, numbers(&l, s, n, out));
+    Line line = line_of(l);
+    const char *s = number(l, before == LITERAL_COMMA ? comma(l, l->at) : l->at, out);
+    return keep(l, line, s != NULL && ends(s) ? s : NULL);
 }
 
-int literal_argument(Lexer *lexer, double out[5])
+bool literal_numbers(Lexer *l, int n, double *out)
 {
-    Lexer l = *lexer;
-    const char *s = lex_blank(&l, l.at);
+    Line line = line_of(l);
+    const char *s = mark(l, l->at, '<');
+    return keep(l, line, s != NULL ? numbers(l, s, n, out) : NULL);
+}
+
+int literal_argument(Lexer *l, double out[5])
+{
+    Line line = line_of(l);
+    const char *s = lex_blank(l, l->at);
     int n = 0;
     if (*s != '<') {
-        s = number(&l, s, &out[n++]);
+        s = number(l, s, &out[n++]);
     } else {
         s++;
         do
-            s = number(&l, s, &out[n++]);
+            s = number(l, s, &out[n++]);
         while (s != NULL && n < 5 && *s == ',' && s++);
-        s = s != NULL && n > 1 && *s == '>' ? lex_blank(&l, s + 1) : NULL;
+        s = s != NULL && n > 1 && *s == '>' ? lex_blank(l, s + 1) : NULL;
     }
-    if (s == NULL || (*s != ',' && *s != ')'))
-        return 0;
-    l.at = s + (*s == ',');
-    *lexer = l;
-    return n;
+    if (s != NULL && *s == ',')
+        s++;
+    else if (s != NULL && *s != ')')
+        s = NULL;
+    return keep(l, line, s) ? n : 0;
 }
 
 static const char *pigment(Lexer *l, const char *s, Colour *out)
@@ -153,11 +163,10 @@ static const char *pigment(Lexer *l, const char *s, Colour *out)
     return mark(l, s, '}');
 }
 
-bool literal_pigment(Lexer *lexer, Colour *out)
+bool literal_pigment(Lexer *l, Colour *out)
 {
-    Lexer l = *lexer;
-    const char *s = pigment(&l, l.at, out);
-    return keep(lexer, &l, s);
+    Line line = line_of(l);
+    return keep(l, line, pigment(l, l->at, out));
 }
 
 static const char *texture_body(Lexer *l, const char *s, Colour *out)
@@ -168,16 +177,15 @@ static const char *texture_body(Lexer *l, const char *s, Colour *out)
     return mark(l, s, '}');
 }
 
-bool literal_texture_body(Lexer *lexer, Colour *out)
+bool literal_texture_body(Lexer *l, Colour *out)
 {
-    Lexer l = *lexer;
-    const char *s = texture_body(&l, l.at, out);
-    return keep(lexer, &l, s);
+    Line line = line_of(l);
+    return keep(l, line, texture_body(l, l->at, out));
 }
 
-bool literal_texture(Lexer *lexer, Colour *out)
+bool literal_texture(Lexer *l, Colour *out)
 {
-    Lexer l = *lexer;
-    const char *s = word(&l, l.at, "texture");
-    return s != NULL && keep(lexer, &l, texture_body(&l, s, out));
+    Line line = line_of(l);
+    const char *s = word(l, l->at, "texture");
+    return keep(l, line, s != NULL ? texture_body(l, s, out) : NULL);
 }
