@@ -131,11 +131,13 @@ static inline void gloss_start(Gloss *g, const Shade *s, const Finish *f, const 
         g->sharpness = f->roughness != 0 ? 1 / (double)f->roughness : 0;
 }
 
+static const double FADED = 120;
+
 /* Is k^power, 0 < k, sure to be less than any float but 0, even a million times? By ln k <= k - 1; spares sharp highlights, which
  * are black nearly everywhere, their power. */
 static inline bool fades_away(double k, double power)
 {
-    return power * (1 - k) > 120;
+    return power * (1 - k) > FADED;
 }
 
 static double phong(const Finish *f, const Gloss *gloss, Vec3 l)
@@ -149,10 +151,10 @@ static double phong(const Finish *f, const Gloss *gloss, Vec3 l)
 static double specular(const Finish *f, const Gloss *gloss, Vec3 d, Vec3 n, Vec3 l)
 {
     Vec3 half = scaled(sub(l, d), 0.5);
-    double k = dot(half, n);
-    if (k <= 0)
-        return 0;
-    double size = length(half);
+    double k = dot(half, n), size2 = length2(half), dark = 1 - 1.001 * FADED * (double)f->roughness;
+    if (k <= 0 || (gloss->alone && dark > 0 && dark < 1 && k * k < dark * dark * size2))
+        return 0;                              /* faded away, by a wider margin: known without a root and a quotient */
+    double size = sqrt(size2);
     if (!(size > 0))
         return 0;
     k /= size;
