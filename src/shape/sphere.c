@@ -59,7 +59,7 @@ static bool solid(const void *shape, Solid *out)
     const Sphere *s = shape;
     Bounds all = bounds_everything();
     *out = (Solid){ all.lo, all.hi, 3, s->centre, s->radius };
-    return true;
+    return !s->inward;
 }
 
 static double reach(const void *shape, Vec3 n)

@@ -140,7 +140,7 @@ static Rgb light_at(const Stretch *s, Vec3 p, double at)
 {
     const World *w = s->t->world;
     Rgb sum = rgb_grey(0);
-    Spot spot = { s->t, p, NULL, s->in };
+    Spot spot = { .t = s->t, .p = p, .in = s->in };
     for (uint32_t i = 0; i < s->n_light_spans; i++) {
         const LightSpan *span = &s->t->light_span[i];
         const Light *light = &w->light[span->light];

@@ -120,6 +120,17 @@ struct Tracing {
 typedef struct LightSpan { double from, to; uint32_t light; } LightSpan;
 typedef struct MediaSpan { double from, to; bool lit; } MediaSpan;
 
+/* Remembered for shadow rays: nook.c. */
+enum { NOOK_PRIMS = 4 };
+typedef struct Nook {
+    Vec3 at;
+    uint32_t light;
+    uint8_t visits, n;
+    bool known;
+    uint8_t can_be_left;                       /* bit per prim */
+    uint32_t prim[NOOK_PRIMS];                 /* the only ones that may lie between */
+} Nook;
+
 typedef struct AreaSample { Rgb colour; uint32_t stamp; } AreaSample;
 
 typedef struct Path {
@@ -139,6 +150,8 @@ struct Tracer {
     const World *world;
     Streams chance;
     uint32_t *last_blocker;                    /* per light: prim + 1 that hid it last; 0 none */
+    Nook *nook;
+    int32_t *nook_credit;                      /* per light: negative if it is left alone */
     AreaSample *area;                          /* samples of the area light in work; valid if stamp is area_stamp */
     uint32_t area_stamp;
     uint32_t *lit, lit_stamp;                  /* the same where samples are lit or dark: penumbra.c */
@@ -157,6 +170,7 @@ typedef struct Spot {
     Vec3 p;
     const Surface *surface;
     const Interiors *in;                       /* bodies around the ray that came here */
+    uint32_t prim;                             /* of the surface */
 } Spot;
 
 /* One hit being shaded. */
@@ -248,6 +262,11 @@ static inline Ray shadow_ray(const Spot *spot, Vec3 l, double d)
 }
 
 bool shadow_dims(const Tracer *t, const Light *light);     /* may it grow weaker where it meets no surface? */
+
+/* nook.c */
+typedef enum Seen { SEEN_NOT, SEEN_PERHAPS, SEEN_FULLY } Seen;
+void nooks_start(Arena *arena, Tracer *t);
+Seen nook_sees(const Spot *spot, uint32_t light, const Beam *beam);    /* if there is credit */
 
 /* area.c */
 Rgb area_visible(const Spot *spot, uint32_t light, Rgb colour);          /* mean over the samples */

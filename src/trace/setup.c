@@ -286,6 +286,7 @@ Tracer *tracer_new(Arena *arena, const Tracing *tracing, Radiosity *radiosity)
     t->tracing = tracing;
     t->world = tracing->world;
     t->last_blocker = arena_array(arena, uint32_t, t->world->n_lights + 1);
+    nooks_start(arena, t);
     t->area = arena_array(arena, AreaSample, tracing->n_area_samples);
     t->lit = arena_array(arena, uint32_t, tracing->n_area_samples);
     t->light_span = arena_array(arena, LightSpan, t->world->n_lights + 1);

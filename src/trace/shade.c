@@ -441,7 +441,7 @@ Colour shade_hit(Tracer *t, const Path *path, const Hit *hit)
     s.surface = &surface;
     s.material = m;
     s.lit_by = &tracing->lit_by[material];
-    s.spot = (Spot){ t, surface.p, &surface, path->in };
+    s.spot = (Spot){ t, surface.p, &surface, path->in, hit->prim };
     const Coat *coat = &tracing->coat[texture];
     Rgb light;
     if (coat->matte && surface.n_textures == 0 && shade_matte(&s, coat, texture, &light))

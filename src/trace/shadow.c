@@ -298,6 +298,9 @@ bool shadow_walk(const Spot *spot, uint32_t light, Beam *beam, const Shaft *amon
 {
     Tracer *t = spot->t;
     const Light *source = &t->world->light[light];
+    Seen seen = among == NULL && t->nook_credit[light] >= 0 ? nook_sees(spot, light, beam) : SEEN_PERHAPS;
+    if (seen != SEEN_PERHAPS)
+        return seen == SEEN_FULLY || darkened(beam);
     Ray ray = shadow_ray(spot, beam->l, beam->d);
     if (source->projected_through != 0) {
         Hit hit;
