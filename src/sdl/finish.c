@@ -37,7 +37,7 @@ static void reflection_block(Parser *p, Finish *f)
         switch (parse_peek(p)) {
         case KW_FRESNEL: {
             parse_skip(p);
-            double on = parse_optional_float(p, 1);
+            double on = parse_at_float(p) ? parse_float(p) : 1;
             if (on != 0 && on != 1)
                 parse_fail(p, "fresnel must be true or false");
             f->reflection_fresnel = fresnel = on == 1;
@@ -106,7 +106,7 @@ static bool item(Parser *p, Finish *f)
         parse_skip(p);
         f->diffuse_albedo = parse_accept(p, KW_ALBEDO);
         f->diffuse = number(p);
-        f->diffuse_back = (float)parse_optional_float(p, f->diffuse_back);
+        f->diffuse_back = (float)parse_optional_float(p, 0);   /* without one, an earlier one is gone */
         break;
     case KW_BRILLIANCE: parse_skip(p); f->brilliance = number(p); break;
     case KW_PHONG: parse_skip(p); f->phong_albedo = parse_accept(p, KW_ALBEDO); f->phong = number(p); break;

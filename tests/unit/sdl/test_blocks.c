@@ -269,12 +269,13 @@ static void finishes_start_from_the_defaults_and_albedo_waits_for_the_end(void *
 {
     (void)state;
     Parsed *s = good(HEAD "sphere { 0, 1 finish { diffuse albedo 0.5 brilliance 3 reflection { 0.1, 0.9 fresnel metallic } metallic } }\n"
-                          "sphere { 0, 1 finish { reflection { 0.5 fresnel } } }");
+                          "sphere { 0, 1 finish { reflection { 0.5 fresnel } diffuse 0.6, 0.3 diffuse 0.4 } }");
     const Finish *f = s->scene.object[0]->texture->finish;
     assert_true(f->diffuse == 1 && f->brilliance == 3 && f->ambient[0] == 0.1f && f->roughness == 0.05f && f->phong_size == 40);
     assert_true(f->reflection_min[0] == 0.1f && f->reflection_max[0] == 0.9f && f->reflection_fresnel && f->reflection_metallic == 1 && f->metallic == 1);
     const Finish *g = s->scene.object[1]->texture->finish;
     assert_true(g->reflection_min[0] == 0 && g->reflection_max[0] == 0.5f);
+    assert_true(g->diffuse == 0.4f && g->diffuse_back == 0);
     parsed_free(s);
 }
 
