@@ -448,6 +448,9 @@ static void emit_node(Emit *e, uint32_t at)
         i = (Instr){ .op = n->op, .a = (uint16_t)e->argument.n, .c = n->part, .n = n->n, .callee = n->callee };
         for (unsigned k = 0; k < n->n; k++)
             array_push(b->arena, &e->argument, e->reg[b->argument.data[n->a + k]]);
+        i.b = 1;
+        for (unsigned k = 1; k < n->n; k++)
+            i.b = i.b != 0 && e->argument.data[i.a + k] == e->argument.data[i.a] + k * CODE_ROW;
         for (unsigned k = 0; k < n->n; k++)
             release(e, b, b->argument.data[n->a + k], at);
         e->too_many = e->too_many || e->argument.n > UINT16_MAX;

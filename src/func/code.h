@@ -28,7 +28,8 @@ enum {
 };
 
 typedef struct Instr {
-    uint16_t op, dst, a, b, c, n;              /* SUM ... NATIVE: n arguments, registers argument[a ...]; c: part.
+    uint16_t op, dst, a, b, c, n;              /* SUM ... NATIVE: n arguments, registers argument[a ...]; c: part;
+                                                * b: not 0 if these follow each other.
                                                 * ATAN2: n not 0 if whole turns do not matter; ABS, and MIN and MAX
                                                 * with 0: if kinks at 0 do not matter */
     union { double k; const void *callee; };   /* Function, FuncHost, FuncNative; NOISE: const int, the generator */
@@ -54,18 +55,21 @@ struct Function {
     uint32_t n_nodes, result;
 };
 
-/* One build of eval_kernel.c. `run` takes n <= lanes points. */
+typedef void CodeRun(const Function *f, const double *const *arguments, double *out, int n);
+typedef void CodeRunLine(const Function *f, const FuncLine *line, const double *t, double *out, int n);
+
+/* One build of eval_kernel.c, for as many points as the names say or fewer; lanes: many. */
 typedef struct EvalKernel {
     int lanes;
     double (*one)(const Function *f, const double *arguments);
-    void (*few)(const Function *f, const double *const *arguments, double *out, int n);        /* n <= 4 */
-    void (*some)(const Function *f, const double *const *arguments, double *out, int n);       /* n <= 8 */
-    void (*many)(const Function *f, const double *const *arguments, double *out, int n);
+    double (*one_on_line)(const Function *f, const FuncLine *line, double t);
+    CodeRun *upto_4, *upto_8, *upto_lanes;
+    CodeRunLine *line_4, *line_8, *line_lanes;
 } EvalKernel;
 
 /* One build of piece_kernel.c. */
 typedef struct PieceKernel {
-    void (*bounds)(const Function *f, const double *start, const double *speed, const double *at, FuncPieces *out);
+    void (*bounds)(const Function *f, const FuncLine *line, const double *at, FuncPieces *out);
 } PieceKernel;
 
 double code_fold(unsigned op, double a, double b, double c);   /* of an operation on numbers: what the kernel would compute */

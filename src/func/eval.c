@@ -123,23 +123,46 @@ void func_eval(const Function *f, const double *const *arguments, double *out, u
                 one[k] = *row[k];
             out[at] = func_call(f, one);
         } else if (here <= 4) {
-            kernel->few(f, row, out + at, (int)here);
+            kernel->upto_4(f, row, out + at, (int)here);
         } else if (here <= 8) {
-            kernel->some(f, row, out + at, (int)here);
+            kernel->upto_8(f, row, out + at, (int)here);
         } else {
-            kernel->many(f, row, out + at, (int)here);
+            kernel->upto_lanes(f, row, out + at, (int)here);
         }
     }
 }
 
-void func_pieces(const Function *f, const double *start, const double *speed, const double at[FUNC_PIECES + 1],
-                 FuncPieces *out)
+double func_on_line(const Function *f, const FuncLine *line, double t)
+{
+    double p[3];
+    if (f->host == NULL)
+        return kernel->one_on_line(f, line, t);
+    for (int k = 0; k < 3; k++)
+        p[k] = line->start[k] + t * line->speed[k];
+    return host_scalar(f->host, p);
+}
+
+void func_along_line(const Function *f, const FuncLine *line, const double *t, double *out, int n)
+{
+    if (f->host == NULL && n <= kernel->lanes) {
+        CodeRunLine *run = n <= 4 ? kernel->line_4 : n <= 8 ? kernel->line_8 : kernel->line_lanes;
+        run(f, line, t, out, n);
+        return;
+    }
+    double p[3][FUNC_MANY];
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < n; i++)
+            p[k][i] = line->start[k] + t[i] * line->speed[k];
+    func_eval(f, (const double *const[]){ p[0], p[1], p[2] }, out, (uint32_t)n);
+}
+
+void func_pieces(const Function *f, const FuncLine *line, const double at[FUNC_PIECES + 1], FuncPieces *out)
 {
     if (f->host != NULL || f->n_registers > CODE_MAX_ROWS) {
         for (int i = 0; i < FUNC_PIECES; i++)
             out->lo[i] = -(out->hi[i] = out->first[i] = out->second[i] = INFINITY);
     } else {
-        piece_kernel->bounds(f, start, speed, at, out);
+        piece_kernel->bounds(f, line, at, out);
     }
 }
 

@@ -72,8 +72,10 @@ static void run_turns(const Instr *i, const uint16_t *argument, double *r)
 #define WIDTH 16
 #include "func/eval_lanes.h"
 #define run_many run_16
+#define line_many line_16
 #else
 #define run_many run_8
+#define line_many line_8
 #endif
 
 static void run_lanes(const Function *f, const double *const *arguments, double *out, int n)
@@ -90,4 +92,16 @@ static double run_one(const Function *f, const double *arguments)
     return *steps_1[f->code->op](f->code, r, &frame);
 }
 
-const EvalKernel ISA_NAME(eval_kernel)[1] = { { .lanes = LANES, .one = run_one, .few = run_4, .some = run_8, .many = run_many } };
+static double one_on_line(const Function *f, const FuncLine *line, double t)
+{
+    double r[f->n_registers];
+    for (int k = 0; k < 3; k++)
+        r[k] = line->start[k] + t * line->speed[k];
+    const Frame frame = { f->argument, 1 };
+    return *steps_1[f->code->op](f->code, r, &frame);
+}
+
+const EvalKernel ISA_NAME(eval_kernel)[1] = {
+    { .lanes = LANES, .one = run_one, .one_on_line = one_on_line, .upto_4 = run_4, .upto_8 = run_8, .upto_lanes = run_many,
+      .line_4 = line_4, .line_8 = line_8, .line_lanes = line_many },
+};

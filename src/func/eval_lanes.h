@@ -27,6 +27,22 @@ static void NAME(run)(const Function *f, const double *const *arguments, double 
         out[l] = value[l];
 }
 
+#if WIDTH > 1
+static void NAME(line)(const Function *f, const FuncLine *line, const double *t, double *out, int n)
+{
+    double r[f->n_registers * WIDTH] __attribute__((aligned(64))), at[WIDTH];
+    for (int l = 0; l < WIDTH; l++)
+        at[l] = t[l < n ? l : 0];
+    for (int k = 0; k < 3; k++)
+        for (int l = 0; l < WIDTH; l++)
+            r[k * WIDTH + l] = line->start[k] + at[l] * line->speed[k];
+    const Frame frame = { f->argument, n };
+    const double *value = NAME(steps)[f->code->op](f->code, r, &frame);
+    for (int l = 0; l < n; l++)
+        out[l] = value[l];
+}
+#endif
+
 /* Steps that call others keep their variables apart: what a step itself has on the stack would hinder the jump. */
 static __attribute__((noinline)) void NAME(noise)(const Instr *i, double *r, const Frame *frame)
 {
@@ -72,9 +88,13 @@ static __attribute__((noinline)) void NAME(host)(const Instr *i, double *r, cons
     }
     for (int l = 0; l < frame->n; l++) {
         double v[CODE_MAX_ARGUMENTS], out[5] = { 0 };
-        for (int k = 0; k < i->n; k++)
-            v[k] = ROW(frame->argument[i->a + k])[l];
-        host->call(host->data, v, out);
+        if (WIDTH == 1 && i->b != 0) {         /* they stand ready */
+            host->call(host->data, ROW(frame->argument[i->a]), out);
+        } else {
+            for (int k = 0; k < i->n; k++)
+                v[k] = ROW(frame->argument[i->a + k])[l];
+            host->call(host->data, v, out);
+        }
         d[l] = code_part(out, i->c);
     }
 }

@@ -29,15 +29,21 @@ void func_eval_vector(const Function *f, const double *const *arguments, double 
 /* Arithmetic and the like only, so that many lanes cost little more than one. */
 bool func_is_cheap(const Function *f);
 
-/* May func_pieces know anything of f? */
-bool func_is_bounded(const Function *f);
+/* Points start + t speed, for functions of three parameters. */
+typedef struct FuncLine { double start[3], speed[3]; } FuncLine;
 
-/* The range of f, and how steep and how curved it is at most, on pieces of a line. The arguments are start[k] + t speed[k], piece i goes
- * from t = at[i] to at[i + 1], derivatives are by t. INFINITY: not known, or there is a kink or a jump; in both directions of the range:
- * a value may be not a number. */
+/* Same bits as func_call at the points. */
+double func_on_line(const Function *f, const FuncLine *line, double t);
+void func_along_line(const Function *f, const FuncLine *line, const double *t, double *out, int n);        /* n <= FUNC_MANY */
+
+/* The range of f, and how steep and how curved it is at most, on pieces of a line: piece i goes from t = at[i] to at[i + 1], derivatives
+ * are by t. INFINITY: not known, or there is a kink or a jump; in both directions of the range: a value may be not a number. */
 enum { FUNC_PIECES = 8 };
 typedef struct FuncPieces { double lo[FUNC_PIECES], hi[FUNC_PIECES], first[FUNC_PIECES], second[FUNC_PIECES]; } FuncPieces;
-void func_pieces(const Function *f, const double *start, const double *speed, const double at[FUNC_PIECES + 1], FuncPieces *out);
+void func_pieces(const Function *f, const FuncLine *line, const double at[FUNC_PIECES + 1], FuncPieces *out);
+
+/* May func_pieces know anything of f? */
+bool func_is_bounded(const Function *f);
 
 /* Something a function asks of another room. `call` must work from any thread; it fills `terms` numbers. `calls`, which may be
  * NULL, does the same for n <= FUNC_MANY points and fills all five of each. */

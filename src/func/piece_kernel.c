@@ -230,9 +230,9 @@ INLINE Piece noise(Piece a, Piece b, Piece c, int generator)
 {
     const double slope = generator == 2 ? 2.02 : generator == 3 ? 1.76 : 4.12, bend = generator == 2 ? 10.1 : INFINITY;
     double speed = a.first * a.first + b.first * b.first + c.first * c.first;
-    double turn = a.second * a.second + b.second * b.second + c.second * c.second;
+    double turn = a.second + b.second + c.second;              /* not less than its length, and mostly 0 */
     double far = greater(largest(a), greater(largest(b), largest(c)));
-    Piece out = { 0, 1, slope * sqrt(speed), known(bend * speed + slope * sqrt(turn)) };
+    Piece out = { 0, 1, slope * sqrt(speed), known(bend * speed + slope * turn) };
     return picked(far < 1800, out, unknown(0, 1));
 }
 
@@ -328,14 +328,16 @@ static Step *const steps[N_CODE_OPS] = {
     UNKNOWN(FUNC_SUM) UNKNOWN(FUNC_PROD) UNKNOWN(FUNC_CALL) UNKNOWN(FUNC_HOST) UNKNOWN(FUNC_NATIVE)
 };
 
-static void bounds(const Function *f, const double *start, const double *speed, const double *at, FuncPieces *out)
+static void bounds(const Function *f, const FuncLine *line, const double *at, FuncPieces *out)
 {
     Row r[f->n_registers] __attribute__((aligned(64)));
-    for (int k = 0; k < f->parameters; k++)
+    for (int k = 0; k < 3; k++) {
+        const double start = line->start[k], speed = line->speed[k];
         PIECE_LOOP {
-            double a = start[k] + at[l] * speed[k], b = start[k] + at[l + 1] * speed[k];
-            put(&r[k], l, (Piece){ lesser(a, b), greater(a, b), fabs(speed[k]), 0 });
+            double a = start + at[l] * speed, b = start + at[l + 1] * speed;
+            put(&r[k], l, (Piece){ lesser(a, b), greater(a, b), fabs(speed), 0 });
         }
+    }
     *out = *steps[f->code->op](f->code, r);
     PIECE_LOOP {
         out->first[l] *= 1 + 0x1p-30;

@@ -80,8 +80,8 @@ static bool item(Parser *p, void *params)
 /* A ray on its way through an isosurface. Times are the ray's own; values are what f has above the threshold, times the sign. */
 typedef struct Search {
     const Isosurface *s;
-    const Ray *ray;
     const HitSink *sink;
+    FuncLine line;                             /* the ray */
     double sign;                               /* +1 outside, -1 inside */
     double accuracy;                           /* as a time */
     double speed;                              /* local length per time */
@@ -98,20 +98,12 @@ typedef struct Search {
 
 static double value_at(const Search *q, double t)
 {
-    Vec3 p = ray_at(q->ray, t);
-    return q->sign * (func_call(q->s->f, (const double[]){ p.x, p.y, p.z }) - q->s->threshold);
+    return q->sign * (func_on_line(q->s->f, &q->line, t) - q->s->threshold);
 }
 
 static void values_at(const Search *q, const double *t, double *v, int n)
 {
-    double x[GRID + 1], y[GRID + 1], z[GRID + 1];
-    for (int i = 0; i < n; i++) {
-        Vec3 p = ray_at(q->ray, t[i]);
-        x[i] = p.x;
-        y[i] = p.y;
-        z[i] = p.z;
-    }
-    func_eval(q->s->f, (const double *const[]){ x, y, z }, v, (uint32_t)n);
+    func_along_line(q->s->f, &q->line, t, v, n);
     for (int i = 0; i < n; i++)
         v[i] = q->sign * (v[i] - q->s->threshold);
 }
@@ -146,9 +138,7 @@ static void judge_pieces(Search *q)
 /* What calculus says of each eighth of the way. */
 static void measure(Search *q)
 {
-    const Ray *ray = q->ray;
-    const double start[3] = { ray->o.x, ray->o.y, ray->o.z }, speed[3] = { ray->d.x, ray->d.y, ray->d.z };
-    func_pieces(q->s->f, start, speed, q->t, &q->pieces);
+    func_pieces(q->s->f, &q->line, q->t, &q->pieces);
     q->measured = true;
     judge_pieces(q);
 }
@@ -232,14 +222,14 @@ static bool stays_positive(const Shape *m, double length, double va, double vb)
     if (va + vb > m->steep * length)
         return true;
     double sag = m->bend * length * length / 2, rise = fabs(vb - va);
-    return rise > sag || (va + vb) / 2 - sag / 4 > rise * rise / (4 * sag);
+    return rise > sag || (2 * (va + vb) - sag) * sag > rise * rise;
 }
 
 /* Does f fall all the way from a to b, nowhere steeper than the greatest gradient? Then the halvings find the one root. */
 static bool falls(const Search *q, const Shape *m, double length, double va, double vb)
 {
-    double slope = (va - vb) / length, change = m->bend * length / 2;
-    return slope > change && slope + change <= q->gradient * q->speed;
+    double drop = va - vb, change = m->bend * length * length / 2;
+    return drop > change && drop + change <= q->gradient * q->speed * length;
 }
 
 /* A root between a and b, where f has been asked: va >= 0 > vb. Its neighbours' values and the bend say that it is between lo and hi. */
@@ -461,7 +451,7 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     double scene_speed = length(affine_vector(&s->place, ray->d)) / s->scene_unit;
     Search q;                                  /* not cleared: it is large */
     q.s = s;
-    q.ray = ray;
+    q.line = (FuncLine){ { ray->o.x, ray->o.y, ray->o.z }, { ray->d.x, ray->d.y, ray->d.z } };
     q.sink = sink;
     q.sign = 1;
     q.accuracy = s->accuracy / scene_speed;

@@ -55,8 +55,8 @@ static void widths_and_instruction_sets_give_the_same_bits(void **state)
         for (int isa = CPU_BASE; isa <= (int)cpu_isa(); isa++) {
             const EvalKernel *kernel = code_kernel((CpuIsa)isa);
             int n = kernel->lanes < 16 ? kernel->lanes : 16 - tree % 3;
-            kernel->many(f, rows, many, n);
-            kernel->few(f, rows, few, 3);
+            kernel->upto_lanes(f, rows, many, n);
+            kernel->upto_4(f, rows, few, 3);
             for (int l = 0; l < n; l++) {
                 double one = code_kernel(CPU_BASE)->one(f, (const double[]){ p[0][l], p[1][l], p[2][l] });
                 if (!same_bits(one, many[l]) || (l < 3 && !same_bits(one, few[l])))
@@ -181,7 +181,8 @@ static void hosts_give_components(void **state)
 /* f along a line: its values at random points of each piece, its slopes and second differences between them. */
 static int check_pieces(const Function *f, unsigned *seed, double length)
 {
-    double start[3], speed[3], at[FUNC_PIECES + 1];
+    FuncLine line;
+    double *start = line.start, *speed = line.speed, at[FUNC_PIECES + 1];
     int known = 0;
     for (int k = 0; k < 3; k++) {
         start[k] = random_number(seed) * 3;
@@ -190,7 +191,7 @@ static int check_pieces(const Function *f, unsigned *seed, double length)
     for (int i = 0; i <= FUNC_PIECES; i++)
         at[i] = length * i;
     FuncPieces out;
-    func_pieces(f, start, speed, at, &out);
+    func_pieces(f, &line, at, &out);
     for (int i = 0; i < FUNC_PIECES; i++) {
         bool steep_known = isfinite(out.first[i]);
         known += steep_known;
@@ -245,9 +246,10 @@ static void pieces_bound_noise_and_whole_waves_around_an_axis(void **state)
     const Function *waves = func_finish(b, func_unary(b, FUNC_SIN, func_binary(b, FUNC_MUL, angle, func_number(b, 12))));
     FuncPieces out;
     const double at[FUNC_PIECES + 1] = { 0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8 };
-    func_pieces(waves, (const double[]){ -0.35, 0, -1 }, (const double[]){ 1, 0, 0 }, at, &out);      /* over the cut of atan2 */
+    const FuncLine line = { { -0.35, 0, -1 }, { 1, 0, 0 } };
+    func_pieces(waves, &line, at, &out);      /* over the cut of atan2 */
     assert_true(out.first[3] < 13 && out.second[3] < 300);
-    func_pieces(func_finish(b, angle), (const double[]){ -0.35, 0, -1 }, (const double[]){ 1, 0, 0 }, at, &out);
+    func_pieces(func_finish(b, angle), &line, at, &out);
     assert_true(out.first[2] < 2 && isinf(out.first[3]));
     arena_free(&arena);
 }
