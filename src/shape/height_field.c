@@ -5,6 +5,7 @@
  * for the neighbour, and between two of them both ray and ground are straight, so no ray slips through. All is in map
  * units: x and z count points, y is 0 ... 65535 (08-shapes, section 14).
  * Parts: 0 and 1, the triangles of the cell (u, v). */
+#include "base/simd.h"
 #include "image/image.h"
 #include "scene/image_map.h"
 #include "sdl/parse.h"
@@ -14,10 +15,13 @@ enum { MOST_LEVELS = 17, TOP = 65536 };
 
 typedef struct { uint16_t lo, hi; } Range;
 
+/* Ranges of squares of a size; an even number of rows and columns, so that every square above has four: those off the map are empty. */
+typedef struct { const Range *range; uint32_t w, h; } Level;
+
 typedef struct {
     uint32_t w, h;                             /* points */
     const uint16_t *height;                    /* row z = 0 first */
-    const Range *range[MOST_LEVELS];           /* range[l]: squares of 2^l cells, l >= 1 */
+    Level level[MOST_LEVELS + 1];              /* level[l]: squares of 2^l cells, l >= 1 */
     uint32_t top;                              /* the level that is one square */
     double water;                              /* 0 ... 65536 */
     bool smooth;
@@ -64,40 +68,40 @@ static Range joined(Range a, Range b)
     return (Range){ a.lo < b.lo ? a.lo : b.lo, a.hi > b.hi ? a.hi : b.hi };
 }
 
-static uint32_t squares(uint32_t points, uint32_t level)
+static const Range EMPTY = { UINT16_MAX, 0 };
+
+static Range of_points(const Params *f, uint32_t x, uint32_t z)
 {
-    return (points - 2 + (1u << level)) >> level;
+    Range r = EMPTY;
+    for (uint32_t k = 2 * z; k <= 2 * z + 2 && k < f->h; k++)
+        for (uint32_t i = 2 * x; i <= 2 * x + 2 && i < f->w; i++) {
+            uint16_t y = f->height[(size_t)k * f->w + i];
+            r = joined(r, (Range){ y, y });
+        }
+    return r;
 }
+
+static Range of_quarters(const Level *below, uint32_t x, uint32_t z)
+{
+    const Range *near = below->range + (size_t)2 * z * below->w + 2 * x, *far = near + below->w;
+    return joined(joined(near[0], near[1]), joined(far[0], far[1]));
+}
+
+static uint32_t half(uint32_t n) { return (n + 1) / 2; }
 
 static void build_pyramid(Arena *arena, Params *f)
 {
-    uint32_t level = 1, w = squares(f->w, 1), h = squares(f->h, 1);
-    Range *below = arena_array(arena, Range, (size_t)w * h);
-    f->range[1] = below;
-    for (uint32_t z = 0; z < h; z++)
-        for (uint32_t x = 0; x < w; x++) {
-            Range r = { UINT16_MAX, 0 };
-            for (uint32_t k = 2 * z; k <= 2 * z + 2 && k < f->h; k++)
-                for (uint32_t i = 2 * x; i <= 2 * x + 2 && i < f->w; i++) {
-                    uint16_t y = f->height[(size_t)k * f->w + i];
-                    r = joined(r, (Range){ y, y });
-                }
-            below[(size_t)z * w + x] = r;
-        }
-    while (w > 1 || h > 1) {
-        uint32_t nw = squares(f->w, level + 1), nh = squares(f->h, level + 1);
-        Range *above = arena_array(arena, Range, (size_t)nw * nh);
-        for (uint32_t z = 0; z < nh; z++)
-            for (uint32_t x = 0; x < nw; x++) {
-                Range r = { UINT16_MAX, 0 };
-                for (uint32_t k = 2 * z; k < 2 * z + 2 && k < h; k++)
-                    for (uint32_t i = 2 * x; i < 2 * x + 2 && i < w; i++)
-                        r = joined(r, below[(size_t)k * w + i]);
-                above[(size_t)z * nw + x] = r;
-            }
-        f->range[++level] = below = above;
-        w = nw;
-        h = nh;
+    uint32_t level = 1, w = half(f->w - 1), h = half(f->h - 1);
+    for (;; level++, w = half(w), h = half(h)) {
+        uint32_t even_w = w + w % 2, even_h = h + h % 2;
+        Range *range = arena_array(arena, Range, (size_t)even_w * even_h);
+        for (uint32_t z = 0; z < even_h; z++)
+            for (uint32_t x = 0; x < even_w; x++)
+                range[(size_t)z * even_w + x] = x >= w || z >= h ? EMPTY : level == 1 ? of_points(f, x, z)
+                                                                                      : of_quarters(&f->level[level - 1], x, z);
+        f->level[level] = (Level){ range, even_w, even_h };
+        if (w == 1 && h == 1)
+            break;
     }
     f->top = level;
 }
@@ -140,7 +144,7 @@ static Affine to_unit(const Params *f)
 
 static Bounds box_of(const Params *f)
 {
-    Range all = f->range[f->top][0];
+    Range all = f->level[f->top].range[0];
     return (Bounds){ vec3(0, fmax(all.lo, f->water) - SLACK, 0), vec3(f->w - 1, all.hi + SLACK, f->h - 1) };
 }
 
@@ -259,20 +263,17 @@ static void cell_hits(Line *l, uint32_t i, uint32_t k)
     straight(l, s0, g0, s1, g1, i, k, o.x + o.z + middle * across > i + k + 1);
 }
 
-/* A square and the stretch of the line over it. */
+/* A square, or at level 0 a cell, and the stretch of the line over it. */
 typedef struct { double s0, s1; uint32_t level, x, z; } Square;
 
-/* Could the line meet the ground in this square, or cell, of the level below `level`? */
-static bool may_meet(const Line *l, uint32_t level, uint32_t x, uint32_t z, double ya, double yb)
+/* Could the line meet the ground in this square at heights from ya to yb? */
+static inline bool may_meet(const Params *m, uint32_t level, uint32_t x, uint32_t z, double ya, double yb)
 {
     static const double pad = 0.01;            /* covers the rounding of y */
-    const Params *m = &l->f->map;
     double lo = lesser(ya, yb) - pad, hi = greater(ya, yb) + pad;
     if (level > 0) {
-        uint32_t w = squares(m->w, level);
-        if (x >= w || z >= squares(m->h, level))
-            return false;
-        Range r = m->range[level][(size_t)z * w + x];
+        const Level *at_level = &m->level[level];
+        Range r = at_level->range[(size_t)z * at_level->w + x];
         return lo <= r.hi && hi >= r.lo;
     }
     if (x >= m->w - 1 || z >= m->h - 1)
@@ -283,21 +284,24 @@ static bool may_meet(const Line *l, uint32_t level, uint32_t x, uint32_t z, doub
     return lo <= (c > d ? c : d) && hi >= (a < b ? a : b);
 }
 
-/* The quarters of a square that the line may meet, nearest first. It is cut at the two middle lines; those are lines of the grid,
- * so the cuts are the numbers that cells use. */
-static uint32_t quarters(const Line *l, const Square *q, Square out[3])
+/* Those quarters of a square that the line may meet, the nearest last. The line is cut at the two middle lines; those are lines of
+ * the grid, so the cuts are the numbers that cells use. */
+static inline uint32_t quarters(const Line *l, const Square *q, Square *out)
 {
     uint32_t level = q->level - 1, n = 0, far_x = l->ix > 0, far_z = l->iz > 0;
-    double mx = ((2 * q->x + 1) << level) - l->o.x, mz = ((2 * q->z + 1) << level) - l->o.z;
-    double sx = mx * l->ix, sz = mz * l->iz, first = lesser(sx, sz), last = greater(sx, sz);
-    const double cut[4] = { q->s0, lesser(greater(first, q->s0), q->s1), lesser(greater(last, q->s0), q->s1), q->s1 };
-    for (int i = 0; i < 3; i++) {
-        double s0 = cut[i], s1 = cut[i + 1];
-        if (!(s0 < s1) || s1 < l->start || s0 > l->limit)
+    double mx = (int)((2 * q->x + 1) << level) - l->o.x, mz = (int)((2 * q->z + 1) << level) - l->o.z;
+    double sx = mx * l->ix, sz = mz * l->iz, first = lesser(sx, sz), last = greater(sx, sz), s1 = q->s1, y1 = l->o.y + s1 * l->d.y;
+    const double from[3] = { q->s0, lesser(greater(first, q->s0), q->s1), lesser(greater(last, q->s0), q->s1) };
+    for (int i = 2; i >= 0; i--) {
+        double s0 = from[i];
+        if (!(s0 < s1))
             continue;
+        double y0 = l->o.y + s0 * l->d.y;
         uint32_t x = 2 * q->x + (far_x ^ (s0 < sx)), z = 2 * q->z + (far_z ^ (s0 < sz));
-        if (may_meet(l, level, x, z, l->o.y + s0 * l->d.y, l->o.y + s1 * l->d.y))
+        if (may_meet(&l->f->map, level, x, z, y0, y1))
             out[n++] = (Square){ s0, s1, level, x, z };
+        s1 = s0;
+        y1 = y0;
     }
     return n;
 }
@@ -320,7 +324,7 @@ static Square first_square(const Line *l, double s0, double s1)
 
 static void descend(Line *l)
 {
-    Square stack[2 * MOST_LEVELS + 3], part[3];
+    Square stack[2 * MOST_LEVELS + 3];
     uint32_t n = 1;
     double s0 = greater(0, l->start), s1 = lesser(l->end, l->limit);
     if (!(s0 <= s1))
@@ -329,36 +333,31 @@ static void descend(Line *l)
     while (n > 0) {
         Square q = stack[--n];
         if (q.s0 > l->limit)
-            continue;
-        uint32_t parts = quarters(l, &q, part);
-        if (q.level > 1)
-            while (parts > 0)                  /* the nearest on top */
-                stack[n++] = part[--parts];
+            return;                            /* what is left is farther */
+        if (q.level > 0)
+            n += quarters(l, &q, stack + n);
         else
-            for (uint32_t i = 0; i < parts; i++)
-                if (part[i].s0 <= l->limit)
-                    cell_hits(l, part[i].x, part[i].z);
+            cell_hits(l, q.x, q.z);
     }
+}
+
+static inline bool between(double o, double d, double lo, double hi, double *in, double *out)
+{
+    if (d == 0)
+        return lo <= o && o <= hi;
+    double a = (lo - o) / d, b = (hi - o) / d;
+    *in = greater(lesser(a, b), *in);
+    *out = lesser(greater(a, b), *out);
+    return true;
 }
 
 /* The whole line's part in the box. */
 static bool enter(const Field *f, const Ray *ray, double *in, double *out)
 {
-    const double lo[3] = { 0, f->lowest, 0 }, hi[3] = { f->map.w - 1, f->highest, f->map.h - 1 };
     *in = -INFINITY;
     *out = INFINITY;
-    for (int axis = 0; axis < 3; axis++) {
-        double o = vec3_at(ray->o, axis), d = vec3_at(ray->d, axis);
-        if (d == 0) {
-            if (o < lo[axis] || o > hi[axis])
-                return false;
-            continue;
-        }
-        double a = (lo[axis] - o) / d, b = (hi[axis] - o) / d;
-        *in = fmax(*in, fmin(a, b));
-        *out = fmin(*out, fmax(a, b));
-    }
-    return *in <= *out;
+    return between(ray->o.x, ray->d.x, 0, f->map.w - 1, in, out) && between(ray->o.y, ray->d.y, f->lowest, f->highest, in, out) &&
+           between(ray->o.z, ray->d.z, 0, f->map.h - 1, in, out) && *in <= *out;
 }
 
 static double inverse(double d)
@@ -409,14 +408,15 @@ static Vec3 point_normal(const Params *m, uint32_t i, uint32_t k)
     double z0 = front ? y - at(m, i, k - 1) : 0, z1 = back ? at(m, i, k + 1) - y : 0;
     const double dx[4] = { x1, x0, x0, x1 }, dz[4] = { z1, z1, z0, z0 };
     const double there[4] = { right && back, left && back, left && front, right && front };
-    double f[4];
-    for (int s = 0; s < 4; s++)
-        f[s] = there[s] / sqrt(dx[s] * dx[s] + 1 + dz[s] * dz[s]);
-    Vec3 sum = vec3(0, 0, 0);
-    for (int s = 0; s < 4; s++)
-        sum = add(sum, vec3(-dx[s] * f[s], f[s], -dz[s] * f[s]));
+    double nx[4], ny[4], nz[4];
+    d4 x = d4_load(dx), z = d4_load(dz), one = d4_set(1);
+    d4 f = d4_div(d4_load(there), d4_sqrt(d4_add(d4_add(d4_mul(x, x), one), d4_mul(z, z))));
+    d4_store(nx, d4_mul(x, f));
+    d4_store(ny, f);
+    d4_store(nz, d4_mul(z, f));
+    Vec3 sum = vec3(0 - nx[0] - nx[1] - nx[2] - nx[3], ny[0] + ny[1] + ny[2] + ny[3], 0 - nz[0] - nz[1] - nz[2] - nz[3]);
     Vec3 n = scaled(normalized(sum), 32767);
-    return vec3(trunc(n.x), trunc(n.y), trunc(n.z));
+    return vec3((int)n.x, (int)n.y, (int)n.z);
 }
 
 /* POV: the points' normals are brought to the world, each to unit length, and mixed there. */
