@@ -62,34 +62,33 @@ static unsigned wrapped(uint64_t i, unsigned size)
     return (unsigned)(i < size ? i : i % size);        /* mostly without a quotient */
 }
 
-static inline void corners(const unsigned char *v, uint64_t step[3][2], int bytes, double out[8])
+/* Two neighbours along x, times their weights. */
+static inline double add_pair(double sum, const unsigned char *row, const uint64_t x[2], int bytes, double most, d2 weight)
 {
-    for (unsigned i = 0; i < 8; i++)
-        out[i] = number(v + step[0][i & 1] + step[1][i >> 1 & 1] + step[2][i >> 2], bytes);
+    d2 v = d2_mul(weight, d2_div(d2_of(number(row + x[0], bytes), number(row + x[1], bytes)), d2_set(most)));
+    return sum + d2_low(v) + d2_high(v);
 }
 
 /* The sample sits at the voxel's low corner, and the last one blends into the first. */
-static double linear(const Density *d, const unsigned cell[3], const double f[3])
+static inline double blended(const Density *d, const unsigned cell[3], const double f[3], int bytes)
 {
-    uint64_t step[3][2], stride = (unsigned)d->bytes;
-    double v[8], w[3][2], sum = 0;
+    uint64_t step[3][2], stride = (unsigned)bytes;
     for (int a = 0; a < 3; a++) {
         step[a][0] = cell[a] * stride;
         step[a][1] = wrapped((uint64_t)cell[a] + 1, d->size[a]) * stride;
-        w[a][0] = 1 - f[a];
-        w[a][1] = f[a];
         stride *= d->size[a];
     }
-    if (d->bytes == 1)                         /* nearly always */
-        corners(d->voxel, step, 1, v);
-    else
-        corners(d->voxel, step, d->bytes, v);
-    d4 most = d4_set(d->most);
-    d4_store(v, d4_div(d4_load(v), most));
-    d4_store(v + 4, d4_div(d4_load(v + 4), most));
-    for (unsigned i = 0; i < 8; i++)
-        sum += w[0][i & 1] * w[1][i >> 1 & 1] * w[2][i >> 2] * v[i];
-    return sum;
+    const unsigned char *low = d->voxel + step[2][0], *high = d->voxel + step[2][1];
+    d2 x = d2_of(1 - f[0], f[0]), near = d2_mul(x, d2_set(1 - f[1])), far = d2_mul(x, d2_set(f[1])), z0 = d2_set(1 - f[2]), z1 = d2_set(f[2]);
+    double sum = add_pair(0, low + step[1][0], step[0], bytes, d->most, d2_mul(near, z0));
+    sum = add_pair(sum, low + step[1][1], step[0], bytes, d->most, d2_mul(far, z0));
+    sum = add_pair(sum, high + step[1][0], step[0], bytes, d->most, d2_mul(near, z1));
+    return add_pair(sum, high + step[1][1], step[0], bytes, d->most, d2_mul(far, z1));
+}
+
+static double linear(const Density *d, const unsigned cell[3], const double f[3])
+{
+    return d->bytes == 1 ? blended(d, cell, f, 1) : blended(d, cell, f, d->bytes);     /* nearly always 1 */
 }
 
 static float cubic_through(const float v[4], float t)
@@ -132,9 +131,9 @@ static double value(const void *params, const PatternPoint *at)
             return 0;
         double u = p[a] * d->size[a];
         cell[a] = (unsigned)u;
+        f[a] = u - cell[a];
         if (cell[a] >= d->size[a])
             cell[a] = d->size[a] - 1;
-        f[a] = u - floor(u);
     }
     switch (d->interpolate) {
     case 0: return voxel(d, cell[0], cell[1], cell[2]);
