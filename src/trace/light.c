@@ -86,8 +86,19 @@ void light_towards(const Light *light, Vec3 from, Vec3 p, Beam *out)
     }
 }
 
+/* Surely, before roots and quotients: most spots shine elsewhere. */
+static inline bool shines_elsewhere(const Light *light, Vec3 v)
+{
+    if (light->def->kind != LIGHT_SPOT || light->def->parallel || !(light->falloff > 0 && light->falloff <= light->radius))
+        return false;
+    double along = -dot(v, light->axis);
+    return along < 0 || along * along < (1 - 0x1p-30) * light->falloff * light->falloff * length2(v);
+}
+
 bool light_beam(const Light *light, Vec3 from, Vec3 p, Rgb colour, Beam *out)
 {
+    if (shines_elsewhere(light, sub(from, p)))
+        return false;
     light_towards(light, from, p, out);
     out->colour = rgb_scaled(colour, (float)light_share(light, p, out->l, out->d));
     return !is_dark(out->colour);
