@@ -10,7 +10,8 @@
 #include "shape/shape.h"
 
 typedef struct { Curve curve; CurveKind kind; } Params;
-typedef struct { Curve curve; double least, most, y0, y1; } Lathe;     /* radii, heights */
+typedef struct { double b[7]; } Square;        /* of a piece's radius, in Bernstein form */
+typedef struct { Curve curve; const Square *square; double least, most, y0, y1; } Lathe;       /* radii, heights */
 
 /* Below this |uy| a root of the polynomial cannot be told from its twin. */
 static const double LEVEL = 1e-7;
@@ -72,6 +73,14 @@ static void measure(const Curve *c, bool hull, double *least, double *most, doub
     }
 }
 
+static void square_radius(const CurvePiece *c, Square *out)
+{
+    double x[4];
+    for (int i = 0; i <= c->degree; i++)
+        x[i] = c->p[i].u;
+    bernstein_product(x, c->degree, x, c->degree, out->b);
+}
+
 static void compile(ShapeBuild *b, const void *params)
 {
     const Params *l = params;
@@ -80,6 +89,10 @@ static void compile(ShapeBuild *b, const void *params)
     double unit = shape_unit(b, fmax(most, fmax(fabs(y0), fabs(y1))));
     Lathe *out = build_data(b, sizeof *out);
     out->curve = curve_scaled(b->arena, l->curve, 1 / unit);
+    Square *square = build_data(b, out->curve.n * sizeof *square);
+    for (uint32_t k = 0; k < out->curve.n; k++)
+        square_radius(&out->curve.piece[k], &square[k]);
+    out->square = square;
     measure(&out->curve, false, &out->least, &out->most, &out->y0, &out->y1);
     Affine place = build_place(b, unit);
     build_prim(b, out, &place, shape_padded((Bounds){ vec3(-out->most, out->y0, -out->most), vec3(out->most, out->y1, out->most) }));
@@ -134,20 +147,17 @@ static void level_hits(const CurvePiece *c, uint32_t part, const Line *l)
     }
 }
 
-static void piece_hits(const CurvePiece *c, uint32_t part, const Line *l)
+static void piece_hits(const CurvePiece *c, const Square *x2, uint32_t part, const Line *l)
 {
-    double x[4], y[4], x2[7], y2[7], f[7], root[7], s[2];
+    double y[4], y2[4], f[7], root[7], s[2];
     int n = c->degree;
-    for (int i = 0; i <= n; i++) {
-        x[i] = c->p[i].u;
+    for (int i = 0; i <= n; i++) {             /* r y^2 + 2 m uy y as one product */
         y[i] = c->p[i].v - l->o.y;
-    }
-    bernstein_product(x, n, x, n, x2);
-    for (int i = 0; i <= n; i++)               /* r y^2 + 2 m uy y as one product */
         y2[i] = l->r * y[i] + 2 * l->m * l->u.y;
+    }
     bernstein_product(y, n, y2, n, f);
     for (int i = 0; i <= 2 * n; i++)
-        f[i] += l->u.y * l->u.y * (l->o2 - x2[i]);
+        f[i] += l->u.y * l->u.y * (l->o2 - x2->b[i]);
     int found = bernstein_roots(f, 2 * n, root);
     for (int i = 0; i < found; i++) {
         Vec2 q = curve_at(c, root[i]);
@@ -205,7 +215,7 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
         if (level)
             level_hits(c, k, &l);
         else
-            piece_hits(c, k, &l);
+            piece_hits(c, &a->square[k], k, &l);
     }
 }
 
