@@ -47,14 +47,25 @@ double bernstein_slope(const double *b, int n, double u)
     return bernstein_value(d, n - 1, u);
 }
 
-void bernstein_product(const double *a, int n, const double *b, int m, double *out)
+static inline __attribute__((always_inline)) void product(const double *a, int n, const double *b, int m, double *out)
 {
+#pragma GCC unroll 8
     for (int k = 0; k <= n + m; k++) {
         double sum = 0;
+#pragma GCC unroll 4
         for (int i = k > m ? k - m : 0; i <= n && i <= k; i++)
             sum += choose[n][i] * choose[m][k - i] * a[i] * b[k - i];
         out[k] = sum / choose[n + m][k];
     }
+}
+
+/* Cubics are the rule: a quarter of the work when the weights are known beforehand. */
+void bernstein_product(const double *a, int n, const double *b, int m, double *out)
+{
+    if (n == 3 && m == 3)
+        product(a, 3, b, 3, out);
+    else
+        product(a, n, b, m, out);
 }
 
 typedef struct Search {
