@@ -75,6 +75,16 @@ typedef struct Search {
     int found;
 } Search;
 
+static double larger(double a, double b) { return a > b ? a : b; }
+
+static double largest_of(const double *b, int n)
+{
+    double largest = 0;
+    for (int i = 0; i <= n; i++)
+        largest = larger(largest, fabs(b[i]));
+    return largest;
+}
+
 static int sign_changes(const double *b, int n)
 {
     int changes = 0;
@@ -84,13 +94,16 @@ static int sign_changes(const double *b, int n)
 }
 
 /* The one root in (0, 1): Newton on the power form of this piece, kept inside a shrinking bracket. */
-static double closed_in(const double *b, int n)
+static inline __attribute__((always_inline)) double closed_in_by(const double *b, int n)
 {
     double a[BERNSTEIN_MAX + 1], lo = 0, hi = 1;
     memcpy(a, b, (size_t)(n + 1) * sizeof *b);
+#pragma GCC unroll 6
     for (int j = 1; j <= n; j++)               /* differences, then times n over k */
+#pragma GCC unroll 6
         for (int i = n; i >= j; i--)
             a[i] -= a[i - 1];
+#pragma GCC unroll 6
     for (int k = 1; k <= n; k++)
         a[k] *= choose[n][k];
     bool rising = b[0] < 0;
@@ -103,6 +116,7 @@ static double closed_in(const double *b, int n)
     u = u < 0.01 ? 0.01 : u > 0.99 ? 0.99 : u;
     for (int i = 0; i < 80; i++) {
         double f = a[n], slope = 0;
+#pragma GCC unroll 6
         for (int k = n - 1; k >= 0; k--) {
             slope = slope * u + f;
             f = f * u + a[k];
@@ -126,6 +140,12 @@ static double closed_in(const double *b, int n)
     return u;
 }
 
+/* Quartics of blobs and sextics of lathes are the rule: their loops are unrolled. */
+static double closed_in(const double *b, int n)
+{
+    return n == 4 ? closed_in_by(b, 4) : n == 6 ? closed_in_by(b, 6) : closed_in_by(b, n);
+}
+
 static void search(Search *s, const double *b, double u0, double size, int depth)
 {
     int n = s->n, changes = sign_changes(b, n);
@@ -135,10 +155,7 @@ static void search(Search *s, const double *b, double u0, double size, int depth
         s->root[s->found++] = u0 + size * closed_in(b, n);
         return;
     }
-    double largest = 0;
-    for (int i = 0; i <= n; i++)
-        largest = fmax(largest, fabs(b[i]));
-    if (depth == DEPTH || largest <= s->noise) {
+    if (depth == DEPTH || largest_of(b, n) <= s->noise) {
         if ((b[0] < 0) != (b[n] < 0))
             s->root[s->found++] = u0 + 0.5 * size;
         return;
@@ -197,10 +214,11 @@ int bernstein_search(const double *b, int n, double *root)
     int found;
     if (n == 2 && quadratic(b, root, &found))
         return found;
-    double largest = 0;
-    for (int i = 0; i <= n; i++)
-        largest = fmax(largest, fabs(b[i]));
-    Search s = { .n = n, .noise = 4 * DBL_EPSILON * largest, .root = root };
+    if (sign_changes(b, n) == 1) {
+        root[0] = closed_in(b, n);
+        return 1;
+    }
+    Search s = { .n = n, .noise = 4 * DBL_EPSILON * largest_of(b, n), .root = root };
     search(&s, b, 0, 1, 0);
     return s.found;
 }
