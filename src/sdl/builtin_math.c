@@ -143,8 +143,7 @@ static double of_many(Parser *p, int keyword)
     bool bits = keyword != KW_MIN && keyword != KW_MAX;
     int32_t b = bits ? int32(v) : 0;
     while (!parse_accept(p, TOK_RPAREN)) {
-        if (!parse_accept(p, TOK_COMMA))
-            parse_mend(p, "A comma is missing");
+        parse_due_comma(p);
         double w = expr_float(p);
         switch (keyword) {
         case KW_MIN: case KW_MAX: math_of_two(keyword, v, w, &v); break;

@@ -244,8 +244,7 @@ static Str concat_function(Parser *p)
     do {
         Str s = string_expression(p, false);
         text_add(p, &t, s.data, s.n);
-        parse_comma(p);
-    } while (parse_peek(p) != TOK_RPAREN);
+    } while (parse_accept(p, TOK_COMMA) || parse_peek(p) != TOK_RPAREN);
     return (Str){ t.data, (uint32_t)t.n };
 }
 

@@ -65,8 +65,9 @@ static int arguments(Parser *p, Scope *s, FuncNode *a, int max)
     while (!parse_accept(p, TOK_RPAREN)) {
         if (n == max)
             parse_expect(p, TOK_RPAREN);
+        if (n > 0)
+            parse_due_comma(p);
         a[n++] = logic(p, s);
-        parse_comma(p);
     }
     return n;
 }
@@ -157,11 +158,11 @@ static FuncNode loop_call(Parser *p, Scope *s, FuncOp op)
         parse_expected(p, "parameter name");
     Parameter variable = { canonical(kind), kind == TOK_NAME ? p->token.sym : NULL };
     parse_skip(p);
-    parse_comma(p);
+    parse_due_comma(p);
     FuncNode from = logic(p, s);
-    parse_comma(p);
+    parse_due_comma(p);
     FuncNode to = logic(p, s);
-    parse_comma(p);
+    parse_due_comma(p);
     if (s->n >= FUNC_MAX_PARAMETERS)
         parse_fail(p, "too many sums in sums");
     Scope *body = arena_new(&p->temp, Scope);
@@ -201,9 +202,9 @@ static FuncNode function_call(Parser *p, Scope *s, const Function *f)
     int n = func_parameters(f);
     parse_expect(p, TOK_LPAREN);
     for (int i = 0; i < n; i++) {
+        if (i > 0)
+            parse_due_comma(p);
         a[i] = logic(p, s);
-        if (i + 1 < n)
-            parse_comma(p);
     }
     parse_expect(p, TOK_RPAREN);
     if (func_terms(f) == 1)
@@ -523,7 +524,8 @@ const Function *function_declaration(Parser *p)
     bool listed = parse_accept(p, TOK_LPAREN);
     while (listed && !parse_accept(p, TOK_RPAREN)) {
         add_parameter(p, &s);
-        parse_comma(p);
+        if (parse_accept(p, TOK_COMMA) && parse_peek(p) == TOK_RPAREN)
+            parse_expected(p, "parameter identifier");
     }
     if (!listed) {
         static const int names[] = { KW_X, KW_Y, KW_Z };

@@ -83,6 +83,7 @@ bool parse_is_strict(const Parser *p);         /* nothing is mended: as the refe
 /* At what the reference refuses though it has one meaning only: an error if strict, else a warning, once. */
 void parse_mend(Parser *p, const char *what);
 void parse_stray_comma(Parser *p);             /* mends one, if there is one */
+void parse_due_comma(Parser *p);               /* takes one, or mends its lack */
 bool parse_charset_is_ascii(const Parser *p);  /* as global_settings said; strings are UTF-8 in any case */
 
 _Noreturn void parse_fail(Parser *p, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -378,6 +378,12 @@ void parse_stray_comma(Parser *p)
         parse_mend(p, "A comma that separates nothing");
 }
 
+void parse_due_comma(Parser *p)
+{
+    if (!parse_accept(p, TOK_COMMA))
+        parse_mend(p, "A comma is missing");
+}
+
 bool parse_charset_is_ascii(const Parser *p)
 {
     return p->charset == CHARSET_ASCII;

@@ -47,7 +47,7 @@ static void parse(Parser *p, void *params)
         if (i > 0 && i < n - 1 && v[i].u < 0)
             parse_fail(p, "Incorrect point in lathe.");
     }
-    parse_comma(p);
+    parse_stray_comma(p);
     int step = l->kind == CURVE_BEZIER ? 4 : 1;
     l->curve.n = (uint32_t)(l->kind == CURVE_BEZIER ? n / 4 : n - least + 1);
     l->curve.piece = arena_array(arena, CurvePiece, l->curve.n);

@@ -102,7 +102,7 @@ static void face_modifiers(Parser *p, Soup *s, uint32_t face)
             uv = (Vec2){ uv.u + 0.0, uv.v + 0.0 };
             f.v[k] = pool_index(a, &s->uv, &uv, sizeof uv);
         }
-        parse_comma(p);
+        parse_stray_comma(p);
         put(a, &s->face_uv, face, f);
     }
     if (parse_accept(p, KW_TEXTURE)) {
@@ -140,7 +140,7 @@ static void triangle(Parser *p, Params *to, bool smooth)
         if (smooth)
             n[k] = parse_next_vec3(p);
     }
-    parse_comma(p);
+    parse_stray_comma(p);
     face_modifiers(p, s, face);
     parse_close(p);
     Vec3 e = sub(at[0], at[1]), g = sub(at[2], at[1]);

@@ -130,7 +130,7 @@ static void parse(Parser *p, void *params)
         parse_comma(p);
         v[i] = parse_vec2(p);
     }
-    parse_comma(p);
+    parse_stray_comma(p);
     Pieces pieces = { 0 };
     bool closed = true;
     if (kind == CURVE_LINEAR)

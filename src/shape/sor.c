@@ -27,7 +27,7 @@ static void parse(Parser *p, void *params)
     }
     if (v[0].v == v[2].v || v[n - 3].v == v[n - 1].v)
         parse_fail(p, "points of a surface of revolution two apart must differ in height");
-    parse_comma(p);
+    parse_stray_comma(p);
     s->point = v;
     s->n = (uint32_t)n;
 }

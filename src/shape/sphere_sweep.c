@@ -56,7 +56,7 @@ static void parse(Parser *p, void *params)
         ball[i].centre = parse_vec3(p);
         ball[i].radius = parse_next_float(p);
     }
-    parse_comma(p);
+    parse_stray_comma(p);
     s->n = (uint32_t)n;
     s->ball = ball;
 }
