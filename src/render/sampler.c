@@ -298,13 +298,9 @@ void sampler_row(Sampler *s, double x, double y, int n)
     }
 }
 
-Colour sampler_in_row(Sampler *s, int i)
+Colour sampler_in_other_row(Sampler *s, int i)
 {
-    const Sampling *all = s->sampling;
-    Vec3 differs = vec3(s->row[0][i], s->row[1][i], s->row[2][i]);
-    if (all->pinhole) {
-        s->ray->d = differs;
-        return tracer_look(s->tracer, &s->at_home);
-    }
-    return all->parallel ? look_from(s, differs) : sampler_colour(s, s->row_x + i, s->row_y);
+    if (s->sampling->parallel)
+        return look_from(s, vec3(s->row[0][i], s->row[1][i], s->row[2][i]));
+    return sampler_colour(s, s->row_x + i, s->row_y);
 }

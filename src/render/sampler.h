@@ -50,6 +50,13 @@ Colour sampler_colour(Sampler *s, double x, double y);
 /* The same of n <= SAMPLER_ROW places side by side, whose rays are worked out four at a time; then asked one by one, other places
  * in between at will. */
 void sampler_row(Sampler *s, double x, double y, int n);
-Colour sampler_in_row(Sampler *s, int i);
+Colour sampler_in_other_row(Sampler *s, int i);         /* of all but pinhole cameras */
+static inline Colour sampler_in_row(Sampler *s, int i)
+{
+    if (!s->sampling->pinhole)
+        return sampler_in_other_row(s, i);
+    s->ray->d = vec3(s->row[0][i], s->row[1][i], s->row[2][i]);
+    return tracer_look(s->tracer, &s->at_home);
+}
 
 #endif

@@ -73,7 +73,7 @@ typedef struct Coat {
     TextureLeaf leaf;                          /* all there is of it; top NULL: it is not the same everywhere */
     bool matte;                                /* what is seen of it is glow, and what lights give to its top layer ... */
     const Pigment *pattern;                    /* ... whose colour is this; NULL: the same everywhere */
-    Look look;
+    Look look;                                 /* with a pattern: as if it were white */
 } Coat;
 
 /* What passes through a surface of a material, if that is the same wherever and however it is met. */

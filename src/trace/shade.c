@@ -330,7 +330,7 @@ void coat_prepare(Coat *coat, const Tracing *tracing, const Texture *texture)
         look_start(&coat->look, tracing, texture->finish, pigment->colour, true);
         coat->matte = alone && bailout >= 0 && coat->look.hides;
     } else if (texture->kind == TEXTURE_PLAIN && pigment->kind == PIGMENT_PATTERN && pigment->quick == NULL && pigment_is_opaque(pigment)) {
-        look_start(&coat->look, tracing, texture->finish, (Colour){ 0, 0, 0, 0, 0 }, true);
+        look_start(&coat->look, tracing, texture->finish, (Colour){ 1, 1, 1, 0, 0 }, true);
         coat->matte = alone && bailout >= 0 && coat->look.hides;
         coat->pattern = pigment;
     }
@@ -381,10 +381,11 @@ static inline bool shade_matte(Shade *s, const Coat *coat, uint32_t texture, Rgb
         n = &bumps;
     }
     Colour c = pigment_patterned(coat->pattern, &p, &s->at);
-    if (c.f != 0 || c.t != 0)
-        return false;
     Layer layer = { top->finish, rgb_of(c), 1 };
-    *out = rgb_add(layer_glow(tracing, &layer), shade_lights(s, &layer, n));
+    if (layer.colour[3] != 0 || c.t != 0)
+        return false;
+    Rgb glow = rgb_mul(layer.colour, coat->look.glow);
+    *out = rgb_add(glow, shade_lights(s, &layer, n));
     return true;
 }
 
