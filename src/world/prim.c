@@ -271,19 +271,11 @@ static bool test_item(void *user, uint32_t i, double *t_max)
     return search->stop;
 }
 
-static __attribute__((noinline)) void unbounded_prims(Search *search)     /* some */
-{
-    const uint32_t *index = search->world->unbounded, *end = index + search->world->n_unbounded;
-    do
-        prim_test(search, *index);
-    while (++index < end && !search->stop);
-}
-
 static inline void all_prims(Search *search)
 {
     const World *w = search->world;
-    if (w->n_unbounded > 0)
-        unbounded_prims(search);
+    for (uint32_t i = 0; i < w->n_unbounded && !search->stop; i++)
+        prim_test(search, w->unbounded[i]);
     if (!search->stop && w->n_accel_prims > 0)
         w->accel_ops->walk(w->accel, search->ray, &search->sink.limit, test_item, search);
 }
