@@ -91,13 +91,26 @@ static inline f4 box_middle(Box b)
     return f4_add(b.lo, b.hi);
 }
 
+/* At most x, and one ulp less; -INFINITY for what is not a number. Without branches on how x rounds: nobody can foresee that. Floats
+ * in order are whole numbers in order, once those below 0 are turned round. */
+static inline float outward_below(double x)
+{
+    const int32_t infinity = 0x7f800000;
+    float f = (float)x;
+    int32_t bits = (int32_t)float_bits(f), sign = bits >> 31, rank = ((bits & INT32_MAX) ^ sign) - sign;
+    rank -= 1 + ((double)f > x);
+    rank = rank > -infinity ? rank : -infinity;
+    sign = rank >> 31;
+    float below = float_of_bits((uint32_t)((rank ^ sign) - sign) | ((uint32_t)sign & 0x80000000u));
+    return f == f ? below : -INFINITY;
+}
+
 static Item item_outward(const Bounds *b, uint32_t index)
 {
     Item out = { .index = index, .n = 1 };
     for (int i = 0; i < 3; i++) {
-        float lo = float_below(vec3_at(b->lo, i)), hi = float_above(vec3_at(b->hi, i));
-        out.lo[i] = lo > -INFINITY ? float_down(lo) : -INFINITY;       /* NaN too */
-        out.hi[i] = hi < INFINITY ? float_up(hi) : INFINITY;
+        out.lo[i] = outward_below(vec3_at(b->lo, i));
+        out.hi[i] = -outward_below(-vec3_at(b->hi, i));
     }
     return out;
 }
@@ -179,7 +192,14 @@ static Split find_split(const Bins *bins, uint32_t n)
 /* Without its items: box, middles and total are still to be filled in. */
 static Range range_empty(Item *item, uint32_t n, bool cells)
 {
-    return (Range){ .item = item, .n = n, .box = box_none(), .middles = box_none(), .cells = cells, .whole = n == 1 && !cells };
+    Range r;
+    r.item = item;
+    r.n = n;
+    r.total = 0;
+    r.box = r.middles = box_none();
+    r.cells = cells;
+    r.whole = n == 1 && !cells;
+    return r;
 }
 
 static Range range_of(Item *item, uint32_t n, bool cells)
@@ -430,8 +450,9 @@ static uint32_t spread(const Builder *k, const Range *all, Range *range)
 
 static void build_node(Builder *k, uint32_t index, Range all, int depth)
 {
-    Range range[BVH_WIDTH] = { all };
-    uint32_t n = 1;
+    Range range[BVH_WIDTH];
+    range[0] = all;
+    uint32_t n = 1, child[BVH_WIDTH];
     bool binned = depth < DEPTH_BINNED;
     int at;
     if (all.n <= BVH_WIDTH && !all.cells)
@@ -439,23 +460,26 @@ static void build_node(Builder *k, uint32_t index, Range all, int depth)
     while (n < BVH_WIDTH && (at = widest(range, n, binned)) >= 0)
         if (split(k, &range[at], &range[n], binned))
             n++;
-    BvhNode node = { .used = (1u << n) - 1 };
     for (uint32_t i = 0; i < n; i++) {
         const Range *r = &range[i];
-        float lo[4], hi[4];
-        f4_store(lo, r->box.lo);
-        f4_store(hi, r->box.hi);
-        for (int axis = 0; axis < 3; axis++) {
-            node.side[axis][i] = lo[axis];
-            node.side[axis + 3][i] = hi[axis];
-        }
         bool leaf = r->whole || r->total <= k->leaf_max || (r->n == 2 && !r->cells && cut_pair(k, r) == 0);
-        node.child[i] = leaf ? bvh_child((uint32_t)(r->item - k->item), r->n) : bvh_child(node_new(k), 0);
+        child[i] = leaf ? bvh_child((uint32_t)(r->item - k->item), r->n) : bvh_child(node_new(k), 0);
     }
-    k->bvh->node[index] = node;
+    BvhNode *node = &k->bvh->node[index];      /* nodes stand still until the first child asks for more */
+    node->used = (1u << n) - 1;
+    for (uint32_t i = 0; i < n; i++) {
+        float lo[4], hi[4];
+        f4_store(lo, range[i].box.lo);
+        f4_store(hi, range[i].box.hi);
+        for (int axis = 0; axis < 3; axis++) {
+            node->side[axis][i] = lo[axis];
+            node->side[axis + 3][i] = hi[axis];
+        }
+        node->child[i] = child[i];
+    }
     for (uint32_t i = 0; i < n; i++)
-        if (bvh_count(node.child[i]) == 0)
-            build_node(k, bvh_at(node.child[i]), range[i], depth + 1);
+        if (bvh_count(child[i]) == 0)
+            build_node(k, bvh_at(child[i]), range[i], depth + 1);
 }
 
 /* Boxes live in an arena of their own, so that the World keeps only what it walks. Of the room for nodes, generous unless leaves are

@@ -37,35 +37,6 @@ static inline uint32_t bvh_child(uint32_t at, uint32_t count) { return at << BVH
 static inline uint32_t bvh_at(uint32_t child) { return child >> BVH_COUNT_BITS; }
 static inline uint32_t bvh_count(uint32_t child) { return child & ((1 << BVH_COUNT_BITS) - 1); }
 
-/* The next float towards zero (away from it) in size; for 0 itself see below. */
-static inline float float_step(float f, int by)
-{
-    return float_of_bits(float_bits(f) + (uint32_t)by);
-}
-
-static inline float float_down(float f)        /* f > -INFINITY */
-{
-    return f == 0 ? -0x1p-149f : float_step(f, f > 0 ? -1 : 1);
-}
-
-static inline float float_up(float f)          /* f < INFINITY */
-{
-    return f == 0 ? 0x1p-149f : float_step(f, f > 0 ? 1 : -1);
-}
-
-/* The largest float <= x, the smallest >= x; infinities and NaN stay. */
-static inline float float_below(double x)
-{
-    float f = (float)x;
-    return (double)f > x ? float_down(f) : f;
-}
-
-static inline float float_above(double x)
-{
-    float f = (float)x;
-    return (double)f < x ? float_up(f) : f;
-}
-
 typedef bool BvhWalk(const Bvh *b, const Ray *ray, double *t_max, AccelVisit *visit, void *user);
 typedef bool BvhAround(const Bvh *b, Vec3 p, AccelVisit *visit, void *user);
 typedef bool BvhBetween(const Bvh *b, Vec3 o, Bounds to, AccelVisit *visit, void *user);

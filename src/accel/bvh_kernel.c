@@ -26,7 +26,7 @@ static const double SHRINK = 1 - 0x1p-22, STRETCH = 1 + 0x1p-22;
 /* A distance is rounded four times, and so is the one it is compared with. */
 static const float DISTANCE_STRETCH = 1 + 0x1p-20f;
 
-/* Not above x, within two roundings of it: float_below without branches. Never +INFINITY, which would hide what lies there. */
+/* Not above x, within two roundings of it. Never +INFINITY, which would hide what lies there. */
 static inline float under(double x)
 {
     float f = (float)(x - (fabs(x) * 0x1p-23 + 0x1p-149));

@@ -187,9 +187,15 @@ static void shape_compile(Compile *c, const Object *o, const Inherited *from, co
     c->asked_own = false;
     c->all_opaque = true;
     c->no_inside = false;
-    ShapeBuild b = { .arena = c->arena, .object = o, .accel = c->w->accel_ops,
-                     .place = shared ? *c->identity : *c->shape_place, .unit = shareable ? 1 : c->unit,
-                     .diag = c->diag, .compile = c };
+    ShapeBuild b;                              /* one by one: it would be cleared first, which takes as long as all of this */
+    b.arena = c->arena;
+    b.object = o;
+    b.accel = c->w->accel_ops;
+    b.place = shared ? *c->identity : *c->shape_place;
+    b.unit = shareable ? 1 : c->unit;
+    b.diag = c->diag;
+    b.no_inside = false;
+    b.compile = c;
     if (!shared) {
         o->ops->compile(&b, o->params);
         c->no_inside = b.no_inside;

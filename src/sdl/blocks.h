@@ -141,6 +141,7 @@ typedef struct ObjectDraft {
     Affine *own_place;                         /* o.place, if it was made in this block and may be changed in place */
 } ObjectDraft;
 
+void draft_new(ObjectDraft *d, Object o);      /* from what it is, nothing more */
 void draft_begin(ObjectDraft *d, const Object *from);
 void draft_move(Parser *p, ObjectDraft *d, const Affine *move);    /* everything that the object carries so far */
 Object *draft_close(Parser *p, const ObjectDraft *d);

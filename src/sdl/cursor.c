@@ -34,7 +34,12 @@ Reader *cursor_push_reader(Parser *p, Loc loc)
     if (p->n_readers == MAX_READERS)
         fail(p->diag, loc, "Too many nested conditionals or macros.");
     Reader *r = &p->reader[p->n_readers++];
-    *r = (Reader){ .called = loc, .n_conditionals = p->n_conditionals };
+    r->is_file = r->has_table = false;         /* one by one: the lexer is set by who reads a file */
+    r->tokens = NULL;
+    r->at = r->n = 0;
+    r->macro = NULL;
+    r->called = loc;
+    r->n_conditionals = p->n_conditionals;
     return r;
 }
 

@@ -184,7 +184,8 @@ static bool item(Parser *p, ObjectDraft *d, LightSource *l, bool copied)
 
 Object *light_block(Parser *p)
 {
-    ObjectDraft d = { .o = { .kind = OBJECT_LIGHT, .loc = parse_loc(p) } };
+    ObjectDraft d;
+    draft_new(&d, (Object){ .kind = OBJECT_LIGHT, .loc = parse_loc(p) });
     LightSource *l = arena_new(parse_arena(p), LightSource);
     *l = (LightSource){ .point_at = { 0, 0, 1 }, .media_interaction = true, .adaptive = 100, .loc = d.o.loc };
     parse_expect(p, KW_LIGHT_SOURCE);

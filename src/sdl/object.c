@@ -65,6 +65,14 @@ void draft_move(Parser *p, ObjectDraft *d, const Affine *move)
         m->bounded_by = o->flags & OBJECT_BOUNDED_BY_CLIP ? m->clipped_by : moved_list(p, m->bounded_by, m->n_bounded_by, move);
 }
 
+/* In parts: of the whole the compiler would make a loop. */
+void draft_new(ObjectDraft *d, Object o)
+{
+    d->o = o;
+    d->more = (ObjectMore){ 0 };
+    d->own_place = NULL;
+}
+
 void draft_begin(ObjectDraft *d, const Object *from)
 {
     d->o = *from;
@@ -428,7 +436,8 @@ static Object *shape(Parser *p, const ShapeOps *ops)
     if (known != NULL)
         return copy_with_modifiers(p, known, ops->keyword);
     void *params = arena_alloc(parse_arena(p), ops->params_size);
-    ObjectDraft d = { .o = { .kind = OBJECT_SHAPE, .loc = loc, .ops = ops, .params = params } };
+    ObjectDraft d;
+    draft_new(&d, (Object){ .kind = OBJECT_SHAPE, .loc = loc, .ops = ops, .params = params });
     ops->parse(p, params);
     modifiers(p, &d, ops->keyword, ops, params);
     return draft_close(p, &d);
@@ -445,7 +454,8 @@ static Object *csg(Parser *p, ObjectKind kind)
     Objects list = { 0 };
     const Object *child;
     bool patch = false;
-    ObjectDraft d = { .o = { .kind = kind, .loc = loc } };
+    ObjectDraft d;
+    draft_new(&d, (Object){ .kind = kind, .loc = loc });
     while ((child = parse_object(p)) != NULL) {
         array_push(parse_arena(p), &list, child);
         draft_holds(p, &d, child);
