@@ -192,12 +192,9 @@ void noise_displace(Vec3 *p, const Vec3 *amount, int octaves, double omega, doub
     kernel->displace(p, amount, octaves, omega, lambda);
 }
 
-bool noise_two_nearest(const NoiseCube *cube, const Vec3 *p, double square[2])
+bool noise_two_nearest(const Vec3 *p, double shift, double square[2])
 {
-    if (kernel->two_nearest == NULL)
-        return false;
-    kernel->two_nearest(cube, p, square);
-    return true;
+    return kernel->two_nearest != NULL && kernel->two_nearest(p, shift, square);
 }
 
 unsigned noise_cell_row(long long a, long long b)

@@ -40,15 +40,10 @@ double noise_random(unsigned k);
 unsigned noise_cell_row(long long a, long long b);                  /* C(a,b,c) = noise_cell_in_row(row, c) */
 unsigned noise_cell_in_row(unsigned row, long long c);
 
-/* A cube of the grid of whole numbers; its cell is noise_cell(x, y, z). */
-typedef struct NoiseCube {
-    long long x, y, z;
-    Vec3 low;                                  /* the corner */
-} NoiseCube;
-
-/* Each cube has one point, its low corner and three random numbers on from it: of the cube and the 26 around it, the squares of the two
- * least distances to p. False: this machine has no fast way to find them. */
-bool noise_two_nearest(const NoiseCube *cube, const Vec3 *p, double square[2]);
+/* Each cube of the grid of whole numbers has one point, its low corner and three random numbers on from it: of the cube that holds p,
+ * each number less `shift`, and the 26 around it, the squares of the two least distances to p. False: this machine has no fast way to
+ * find them, or a number of p is 1e6 or more. */
+bool noise_two_nearest(const Vec3 *p, double shift, double square[2]);
 
 /* Steps the congruential generator of section 2.1 and gives 15 bits. */
 static inline unsigned noise_sample(unsigned *state)

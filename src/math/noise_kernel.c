@@ -495,40 +495,50 @@ static Vec2 pair_turbulence(const Vec3 *p, int n, double omega, double lambda)
 
 #ifdef __AVX2__
 
+static inline Quad fewer(Quad a, Quad b) { return _mm256_min_pd(a, b); }
+static inline Quad more(Quad a, Quad b) { return _mm256_max_pd(a, b); }
+
 /* Row by row along z, whose three points are lanes; the fourth is infinitely far. No point is passed over, and nothing branches. */
-static void two_nearest(const NoiseCube *cube, const Vec3 *p, double square[2])
+static bool two_nearest(const Vec3 *p, double shift, double square[2])
 {
     const uint16_t *h = noise_tables.hash;
     const double *random = noise_tables.random;
-    unsigned before = (cube->z - 1) & 4095, at = cube->z & 4095, behind = (cube->z + 1) & 4095;
+    const double near = 1e6;
     Quad px = quad(p->x), py = quad(p->y), pz = quad(p->z);
-    Quad z = { cube->low.z - 1, cube->low.z, cube->low.z + 1, INFINITY };
+    Quad low = _mm256_floor_pd(_mm256_blend_pd(px, _mm256_blend_pd(py, pz, 12), 14) - shift);
+    if (_mm256_movemask_pd((Quad)((low < near) & (low > -near))) != 15)
+        return false;
+    __m128i cube = _mm256_cvttpd_epi32(low);
+    int cx = _mm_cvtsi128_si32(cube), cy = _mm_extract_epi32(cube, 1), cz = _mm_extract_epi32(cube, 2);
+    unsigned before = (cz - 1) & 4095, at = cz & 4095, behind = (cz + 1) & 4095;
+    Quad x0 = _mm256_permute4x64_pd(low, 0x00), y0 = _mm256_permute4x64_pd(low, 0x55);
+    Quad z = _mm256_permute4x64_pd(low, 0xff) + (Quad){ -1, 0, 1, INFINITY };
     Quad first = quad(INFINITY), second = first;
     for (int i = -1; i <= 1; i++) {
-        unsigned slice = h[(cube->x + i) & 4095];
-        Quad x = quad(cube->low.x + i);
+        unsigned slice = h[(cx + i) & 4095];
+        Quad x = x0 + i;
         for (int j = -1; j <= 1; j++) {
-            unsigned row = h[slice ^ ((cube->y + j) & 4095)];
-            Quad y = quad(cube->low.y + j);
+            unsigned row = h[slice ^ ((cy + j) & 4095)];
+            Quad y = y0 + j;
             Quad a = load(random + h[row ^ before]), b = load(random + h[row ^ at]), c = load(random + h[row ^ behind]);
             Quad even = __builtin_shufflevector(a, b, 0, 4, 2, 6), odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
             Quad dx = px - (x + __builtin_shufflevector(even, c, 0, 1, 4, 5));
             Quad dy = py - (y + __builtin_shufflevector(odd, c, 0, 1, 5, 5));
             Quad dz = pz - (z + __builtin_shufflevector(even, c, 2, 3, 6, 7));
             Quad s = dx * dx + dy * dy + dz * dz;
-            second = _mm256_min_pd(second, _mm256_max_pd(first, s));
-            first = _mm256_min_pd(first, s);
+            second = fewer(second, more(first, s));
+            first = fewer(first, s);
         }
     }
-    double least = first[0], next = second[0];
-    for (int k = 1; k < 3; k++) {
-        double a = first[k], b = second[k], more = least > a ? least : a;
-        least = least < a ? least : a;
-        next = next < b ? next : b;
-        next = next < more ? next : more;
-    }
-    square[0] = least;
-    square[1] = next;
+    /* Half by half, all lanes fall into the lowest. */
+    Quad other = _mm256_permute4x64_pd(first, 0xee);
+    second = fewer(fewer(second, _mm256_permute4x64_pd(second, 0xee)), more(first, other));
+    first = fewer(first, other);
+    other = _mm256_permute_pd(first, 1);
+    second = fewer(fewer(second, _mm256_permute_pd(second, 1)), more(first, other));
+    square[0] = fewer(first, other)[0];
+    square[1] = second[0];
+    return true;
 }
 
 #define TWO_NEAREST two_nearest

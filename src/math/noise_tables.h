@@ -27,7 +27,7 @@ typedef struct NoiseKernel {
     Vec3 (*vector)(const Vec3 *p);
     void (*octaves)(int generator, const Vec3 *p, double first, double step, int n, double *out);
     void (*vector_octaves)(const Vec3 *p, double first, double step, int n, Vec3 *out);
-    void (*two_nearest)(const NoiseCube *cube, const Vec3 *p, double square[2]);  /* may be NULL */
+    bool (*two_nearest)(const Vec3 *p, double shift, double square[2]);    /* may be NULL */
     double (*ridges)(int generator, const Vec3 *p);
     double (*turbulence)(int generator, const Vec3 *p, int octaves, double omega, double lambda);
     Vec3 (*vector_turbulence)(const Vec3 *p, int octaves, double omega, double lambda);

@@ -35,26 +35,32 @@ static bool item(Parser *p, void *params)
     return true;
 }
 
-static inline NoiseCube cube_of(Vec3 p)
+/* A cube of the grid of whole numbers. */
+typedef struct Cube {
+    long long x, y, z;
+    Vec3 low;                                  /* the corner */
+} Cube;
+
+static inline Cube cube_of(Vec3 p)
 {
     Vec3 q = vec3(p.x - PATTERN_TINY, p.y - PATTERN_TINY, p.z - PATTERN_TINY);
     if (!(max_abs(q) < 9e15))                  /* beyond, cubes cannot be told apart anyway */
-        return (NoiseCube){ 0, 0, 0, vec3(floor(q.x), floor(q.y), floor(q.z)) };
+        return (Cube){ 0, 0, 0, vec3(floor(q.x), floor(q.y), floor(q.z)) };
     long long x = (long long)q.x, y = (long long)q.y, z = (long long)q.z;
     x -= q.x < (double)x;
     y -= q.y < (double)y;
     z -= q.z < (double)z;
-    return (NoiseCube){ x, y, z, vec3((double)x, (double)y, (double)z) };
+    return (Cube){ x, y, z, vec3((double)x, (double)y, (double)z) };
 }
 
 /* Of the cube (x, y, z) steps from the first; row: the hash of its first two coordinates. */
-static inline Vec3 point_in(const NoiseCube *g, unsigned row, int x, int y, int z)
+static inline Vec3 point_in(const Cube *g, unsigned row, int x, int y, int z)
 {
     const double *t = noise_tables.random + noise_tables.hash[row ^ (unsigned)((g->z + z) & 4095)];
     return vec3(g->low.x + x + t[0], g->low.y + y + t[1], g->low.z + z + t[2]);
 }
 
-static inline unsigned row_of(const NoiseCube *g, int x, int y)
+static inline unsigned row_of(const Cube *g, int x, int y)
 {
     return noise_tables.hash[noise_tables.hash[(g->x + x) & 4095] ^ (unsigned)((g->y + y) & 4095)];
 }
@@ -104,7 +110,7 @@ INLINE void offer(Near *near, double s, Vec3 q, int last)
 }
 
 /* The nine cubes two steps away along one axis, to one side. */
-INLINE void offer_face(Near *near, Vec3 p, const NoiseCube *g, int axis, int step, double metric, int last)
+INLINE void offer_face(Near *near, Vec3 p, const Cube *g, int axis, int step, double metric, int last)
 {
     for (int i = -1; i <= 1; i++)
         for (int j = -1; j <= 1; j++) {
@@ -115,7 +121,7 @@ INLINE void offer_face(Near *near, Vec3 p, const NoiseCube *g, int axis, int ste
 }
 
 /* Of the 54 cubes two steps away along one axis those that may matter. Seldom any. */
-static __attribute__((noinline)) void offer_beyond(Near *near, Vec3 p, const NoiseCube *g, double metric, int last)
+static __attribute__((noinline)) void offer_beyond(Near *near, Vec3 p, const Cube *g, double metric, int last)
 {
     Vec3 f = sub(p, g->low);
     for (int axis = 0; axis < 3; axis++)
@@ -147,7 +153,7 @@ INLINE Axis axis_of(double x, double low, long long cell, double metric)
 INLINE Near near_of(Vec3 p, double metric, int last)
 {
     const uint16_t *hash = noise_tables.hash;
-    NoiseCube g = cube_of(p);
+    Cube g = cube_of(p);
     Axis ax = axis_of(p.x - g.low.x, g.low.x, g.x, metric), ay = axis_of(p.y - g.low.y, g.low.y, g.y, metric),
          az = axis_of(p.z - g.low.z, g.low.z, g.z, metric);
     Near near = { .s = { INFINITY, INFINITY, INFINITY } };
@@ -173,7 +179,7 @@ INLINE Near near_of(Vec3 p, double metric, int last)
 /* Metrics that are not positive turn near and far round: all 81 cubes count. */
 static Near near_of_all(Vec3 p, double metric)
 {
-    NoiseCube g = cube_of(p);
+    Cube g = cube_of(p);
     Near near = { .s = { INFINITY, INFINITY, INFINITY } };
     for (int i = 0; i < 27; i++) {
         int x = i % 3 - 1, y = i / 3 % 3 - 1, z = i / 9 - 1;
@@ -222,8 +228,7 @@ static double value(const void *params, const PatternPoint *at)
     double s[2], extra = c->offset * c->offset, v = 0;
     if (c->metric != 2 || c->form.z != 0 || c->solid)
         return of_all(c, at);
-    NoiseCube cube = cube_of(at->p);
-    if (!(max_abs(cube.low) < 1e6) || !noise_two_nearest(&cube, &at->p, s) || s[1] > 1 - 1e-9)
+    if (!noise_two_nearest(&at->p, PATTERN_TINY, s) || s[1] > 1 - 1e-9)
         return of_all(c, at);
     if (c->form.x != 0)
         v += c->form.x * sqrt(s[0] + extra);
