@@ -165,25 +165,32 @@ static void compile(ShapeBuild *b, const void *params)
 typedef struct Search {
     const Parametric *s;
     const Ray *ray;
+    Vec3 inverse;                              /* 1 / ray->d */
     double enter, best;                        /* roots in (enter, best) count */
     double u, v;
 } Search;
 
+static inline void slab(double o, double inverse, double lo, double hi, double *near, double *far)
+{
+    double a = (lo - o) * inverse, b = (hi - o) * inverse;
+    *near = greater(*near, lesser(a, b));
+    *far = lesser(*far, greater(a, b));
+}
+
 static bool meets(const Search *q, const Bounds *box)
 {
+    Vec3 o = q->ray->o;
     double near = q->enter, far = q->best;
-    for (int axis = 0; axis < 3; axis++) {
-        double o = vec3_at(q->ray->o, axis), d = vec3_at(q->ray->d, axis), lo = vec3_at(box->lo, axis), hi = vec3_at(box->hi, axis);
-        if (d == 0) {
-            if (o < lo || o > hi)
-                return false;
-            continue;
-        }
-        double a = (lo - o) / d, b = (hi - o) / d;
-        near = fmax(near, fmin(a, b));
-        far = fmin(far, fmax(a, b));
-    }
+    slab(o.x, q->inverse.x, box->lo.x, box->hi.x, &near, &far);
+    slab(o.y, q->inverse.y, box->lo.y, box->hi.y, &near, &far);
+    slab(o.z, q->inverse.z, box->lo.z, box->hi.z, &near, &far);
     return near <= far;
+}
+
+/* Huge instead of infinite: no NaN on the side of a box. */
+static double inverse(double d)
+{
+    return fabs(d) < 1e-290 ? copysign(1e290, d) : 1 / d;
 }
 
 /* The point and its two derivatives, by steps small beside a cell. */
@@ -282,7 +289,8 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
     if (!container_span(&s->p.container, ray, &enter, &leave, &side[0], &side[1]))
         return;
     double scene_speed = length(affine_vector(&s->place, ray->d)) / s->scene_unit;
-    Search q = { .s = s, .ray = ray, .enter = fmax(enter, 0) + 4 * s->p.accuracy / scene_speed, .best = leave };
+    Search q = { .s = s, .ray = ray, .inverse = vec3(inverse(ray->d.x), inverse(ray->d.y), inverse(ray->d.z)),
+                 .enter = greater(enter, 0) + 4 * s->p.accuracy / scene_speed, .best = leave };
     descend(&q, 0, 0, 0);
     if (q.best < leave)
         hit_add_uv(sink, q.best, 0, q.u, q.v);
@@ -294,7 +302,7 @@ static void surface(const void *shape, const Hit *hit, Surface *out)
     Vec3 f[3];
     frame_at(s, hit->u, hit->v, f);
     out->normal = cross(f[1], f[2]);
-    out->error = fmax(out->error, s->size * 0x1p-38);
+    out->error = greater(out->error, s->size * 0x1p-38);
     if (out->want_uv)
         out->uv = (Vec2){ hit->u, hit->v };
 }
