@@ -35,17 +35,29 @@ static double slope_height(const BlendMap *map, double v)
     return t * t * t * (s0 + s1 + 2 * (h0 - h1)) - t * t * (2 * s0 + s1 + 3 * (h0 - h1)) + t * s0 + h0;
 }
 
-static double height(const Normal *normal, Vec3 q, const TextureContext *at)
+/* At all four corners; patterns that can answer for several points at once are asked so. */
+static void heights(const Normal *normal, const Vec3 q[4], const TextureContext *at, double out[4])
 {
-    double v = pattern_value_at(normal->pattern, q, at);
-    return normal->map.kind == MAP_SLOPE && normal->map.n > 0 ? slope_height(&normal->map, v) : v;
+    const Pattern *pattern = normal->pattern;
+    if (pattern->ops->values != NULL)
+        pattern_values(pattern, q, out, 4);
+    else
+        for (int i = 0; i < 4; i++)
+            out[i] = pattern_value_at(pattern, q[i], at);
+    if (normal->map.kind == MAP_SLOPE && normal->map.n > 0)
+        for (int i = 0; i < 4; i++)
+            out[i] = slope_height(&normal->map, out[i]);
 }
 
 static Vec3 by_gradient(const Normal *normal, Vec3 q, Vec3 n, const TextureContext *at)
 {
-    double d = (double)normal->accuracy, gain = -5 * (double)normal->amount * (0.02 / d);
+    double d = (double)normal->accuracy, gain = -5 * (double)normal->amount * (0.02 / d), h[4];
+    Vec3 there[4];
     for (int i = 0; i < 4; i++)
-        n = add(n, scaled(corner[i], gain * height(normal, add(q, scaled(corner[i], d)), at)));
+        there[i] = add(q, scaled(corner[i], d));
+    heights(normal, there, at, h);
+    for (int i = 0; i < 4; i++)
+        n = add(n, scaled(corner[i], gain * h[i]));
     return n;
 }
 
