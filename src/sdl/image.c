@@ -189,6 +189,8 @@ static int interpolate(Parser *p, ImageUse use)
     bool known = type == 0 || (type >= 2 && type <= 4);
     if (!known && use == IMAGE_COLOUR)
         parse_fail(p, "Invalid interpolate value.");
+    if (type == 0 && use == IMAGE_COLOUR)
+        parse_mend(p, "No interpolation is what an image_map has without the word");
     return known ? type : 0;
 }
 

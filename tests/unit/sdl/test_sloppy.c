@@ -38,7 +38,8 @@ static void what_has_one_meaning_is_read_with_a_warning_and_strictly_refused(voi
         HEAD "#declare A = array[1][2] { { 1, #local X = 2; X } };", HEAD "cylinder { 0, x, 1 scale 2 open pigment { rgb 1 } }",
         HEAD "isosurface { function { x } scale 2 max_gradient 3 }", HEAD "mesh { triangle { 0, x, y } scale 2 inside_vector y }",
         HEAD "blob { sphere { 0, 1, 1 } sturm sphere { x, 1, 1 } }", HEAD "blob { sphere { 0, 1, 1, } }",
-        HEAD "fog { distance 1, rgb 1 }", HEAD "#declare F = function { min(x y) }", HEAD "prism { 0, 1, 4, <0,0>, <1,0>, <1,1>, <0,0>, }", HEAD "height_field { function 9, 9 { x } water_level 0.1, smooth }",
+        HEAD "fog { distance 1, rgb 1 }", HEAD "#declare F = function { min(x y) }",
+        HEAD "sphere { 0, 1 pigment { image_map { function 2, 2 { x } interpolate 0 } } }", HEAD "prism { 0, 1, 4, <0,0>, <1,0>, <1,1>, <0,0>, }", HEAD "height_field { function 9, 9 { x } water_level 0.1, smooth }",
     };
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         Parsed *s = parsed(texts[i]);
