@@ -71,6 +71,7 @@ typedef struct Look {
 /* A texture as far as it can be shaded before anything is hit: all of one that is the same everywhere. */
 typedef struct Coat {
     TextureLeaf leaf;                          /* all there is of it; top NULL: it is not the same everywhere */
+    bool once;                                 /* its layer is all, and asks for each light once */
     bool matte;                                /* what is seen of it is glow, and what lights give to its top layer ... */
     const Pigment *pattern;                    /* ... whose colour is this; NULL: the same everywhere */
     Look look;                                 /* with a pattern: as if it were white */

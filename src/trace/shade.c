@@ -1,6 +1,9 @@
 /* shade.c - a hit to a colour: textures, layers, their light, and the rays that go on (04-shading, sections 3, 4, 7). */
 #include "trace/path.h"
 
+/* Kept apart, so that the ways taken most need not make room for what the others do. */
+#define ALONE __attribute__((noinline))
+
 enum { MIRRORS_MAX = 8 };                      /* layers that reflect, kept until it is known what passes through */
 
 typedef struct Mirror {
@@ -262,7 +265,7 @@ static Rgb shade_rays(Shade *s, const Polish *top, const Look *look, const Stack
 }
 
 /* The way of all leaves that mirror or let through, the top layer looked at. */
-static void shade_stack(Shade *s, const TextureLeaf *leaf, const Look *look, const Vec3 *n)
+ALONE static void shade_stack(Shade *s, const TextureLeaf *leaf, const Look *look, const Vec3 *n)
 {
     double bailout = s->path->ticket->adc_bailout;
     Stack k;
@@ -294,18 +297,21 @@ static void shade_stack(Shade *s, const TextureLeaf *leaf, const Look *look, con
 }
 
 /* Most leaves are matte, and need no stack: their light is all. */
-static inline void shade_look(Shade *s, const TextureLeaf *leaf, const Look *look, const Vec3 *n)
+ALONE static void shade_only(Shade *s, const TextureLeaf *leaf, const Look *look, const Vec3 *n)
 {
-    double bailout = s->path->ticket->adc_bailout;
-    if (!look->hides || !(bailout >= 0)) {
-        shade_stack(s, leaf, look, n);
-        return;
-    }
     Around around;
     around.known = false;
     Rgb own = layer_own(s, look, n, rgb_grey(1), &around);
     Rgb light = rgb_scaled(rgb_add(own, shade_lights(s, &look->layer, n)), leaf->weight);
     s->sum = colour_of(rgb_add(rgb_of(s->sum), light), s->sum.f, s->sum.t);
+}
+
+static inline void shade_look(Shade *s, const TextureLeaf *leaf, const Look *look, const Vec3 *n)
+{
+    if (look->hides && s->path->ticket->adc_bailout >= 0)
+        shade_only(s, leaf, look, n);
+    else
+        shade_stack(s, leaf, look, n);
 }
 
 static void shade_leaf(void *user, const TextureLeaf *leaf)
@@ -329,6 +335,7 @@ void coat_prepare(Coat *coat, const Tracing *tracing, const Texture *texture)
         coat->leaf = (TextureLeaf){ .top = texture, .weight = 1 };
         look_start(&coat->look, tracing, texture->finish, pigment->colour, true);
         coat->matte = alone && bailout >= 0 && coat->look.hides;
+        coat->once = texture->below == NULL && !coat->look.shines_only;
     } else if (texture->kind == TEXTURE_PLAIN && pigment->kind == PIGMENT_PATTERN && pigment->quick == NULL && pigment_is_opaque(pigment)) {
         look_start(&coat->look, tracing, texture->finish, (Colour){ 1, 1, 1, 0, 0 }, true);
         coat->matte = alone && bailout >= 0 && coat->look.hides;
@@ -344,19 +351,21 @@ static inline Vec3 texture_place(const Shade *s)
     return s->material->flags & MATERIAL_UV ? vec3(s->surface->uv.u, s->surface->uv.v, 0) : s->at.point;
 }
 
-static void shade_texture(Shade *s, uint32_t texture)
+ALONE static void shade_uneven(Shade *s, uint32_t texture)
+{
+    if (!s->at.hit)                            /* once: what a normal does to it is seen by the textures that follow */
+        s->at = texture_context(s->t->tracing, s->surface, s->path->ray.d);
+    texture_resolve(&s->t->world->texture[texture], texture_place(s), &s->at, shade_leaf, s);
+}
+
+static inline void shade_texture(Shade *s, uint32_t texture)
 {
     const Coat *coat = &s->t->tracing->coat[texture];
     if (coat->leaf.top != NULL) {
         if (s->path->ticket->adc_bailout < 1)
             shade_look(s, &coat->leaf, &coat->look, &s->surface->normal);
-        return;
-    }
-    if (texture == 0)
-        return;
-    if (!s->at.hit)                            /* once: what a normal does to it is seen by the textures that follow */
-        s->at = texture_context(s->t->tracing, s->surface, s->path->ray.d);
-    texture_resolve(&s->t->world->texture[texture], texture_place(s), &s->at, shade_leaf, s);
+    } else if (texture != 0)
+        shade_uneven(s, texture);
 }
 
 /* The light of a matte coat, without a walk through its texture. False: something shines through it, if less than counts. */
@@ -400,12 +409,21 @@ static void shade_share(Shade *s, uint32_t texture, float weight)
     s->sum = colour_add(before, weight == 1 ? s->sum : colour_scaled(s->sum, weight));
 }
 
+ALONE static void shade_shares(Shade *s, uint32_t texture)
+{
+    const Surface *surface = s->surface;
+    for (uint32_t i = 0; i < surface->n_textures; i++)
+        shade_share(s, surface->texture[i].texture != 0 ? surface->texture[i].texture : texture, surface->texture[i].weight);
+}
+
 /* The way of all hits that no matte coat makes short, `s` begun. Kept apart: the short way need not save what this needs. */
-static __attribute__((noinline)) void shade_textures(Shade *s, const Hit *hit, uint32_t texture)
+ALONE static void shade_textures(Shade *s, const Hit *hit, uint32_t texture)
 {
     const Path *path = s->path;
-    const Surface *surface = s->surface;
+    bool alone = s->surface->n_textures == 0;
     s->lamps = path->ticket->lamps;
+    if (alone && s->t->tracing->coat[texture].once)
+        s->lamps &= ~(unsigned)LAMP_REMEMBERED;
     s->interior = s->material->interior;
     s->depth = hit->t;
     s->level = path->level + (path->straight ? 0 : 1);
@@ -413,10 +431,10 @@ static __attribute__((noinline)) void shade_textures(Shade *s, const Hit *hit, u
     s->known = 0;
     s->sum = (Colour){ 0, 0, 0, 0, 0 };
     s->t->nesting++;
-    if (surface->n_textures == 0)
+    if (alone)
         shade_texture(s, texture);
-    for (uint32_t i = 0; i < surface->n_textures; i++)
-        shade_share(s, surface->texture[i].texture != 0 ? surface->texture[i].texture : texture, surface->texture[i].weight);
+    else
+        shade_shares(s, texture);
     s->t->nesting--;
 }
 
