@@ -115,7 +115,7 @@ static Between look_between(const Area *a, Shaft *shaft)
 static Rgb seen_from(const Area *a, Vec3 from)
 {
     Beam beam;
-    light_towards(a->light, from, a->spot->p, &beam);
+    light_towards(a->light, &from, &a->spot->p, &beam);
     beam.colour = a->colour;
     shadow_walk(a->spot, a->index, &beam, a->among);
     return beam.colour;

@@ -69,18 +69,18 @@ bool light_is_plain(const Light *light)
     return def->kind == LIGHT_POINT && !def->parallel && !fades && !is_dark(light->colour);
 }
 
-void light_towards(const Light *light, Vec3 from, Vec3 p, Beam *out)
+void light_towards(const Light *light, const Vec3 *from, const Vec3 *p, Beam *out)
 {
     const LightSource *def = light->def;
-    Vec3 v = sub(from, p);
+    Vec3 v = sub(*from, *p);
     if (def->kind == LIGHT_CYLINDER) {
-        out->l = normalized(sub(from, light->point_at));
+        out->l = normalized(sub(*from, light->point_at));
         out->d = dot(v, out->l);
     } else {
         aim(out, light, v);
     }
     if (def->parallel || def->kind == LIGHT_CYLINDER) {
-        Vec3 l = def->area ? normalized(sub(from, light->point_at)) : negated(light->axis);
+        Vec3 l = def->area ? normalized(sub(*from, light->point_at)) : negated(light->axis);
         out->d *= dot(l, out->l);
         out->l = l;
     }
@@ -95,12 +95,13 @@ static inline bool shines_elsewhere(const Light *light, Vec3 v)
     return along < 0 || along * along < (1 - 0x1p-30) * light->falloff * light->falloff * length2(v);
 }
 
-bool light_beam(const Light *light, Vec3 from, Vec3 p, Rgb colour, Beam *out)
+/* The places are told by pointer: a copy would be loaded in pairs just after it was stored one by one, and wait. */
+bool light_beam(const Light *light, const Vec3 *from, const Vec3 *p, Rgb colour, Beam *out)
 {
-    if (shines_elsewhere(light, sub(from, p)))
+    if (shines_elsewhere(light, sub(*from, *p)))
         return false;
     light_towards(light, from, p, out);
-    out->colour = rgb_scaled(colour, (float)light_share(light, p, out->l, out->d));
+    out->colour = rgb_scaled(colour, (float)light_share(light, *p, out->l, out->d));
     return !is_dark(out->colour);
 }
 
@@ -277,7 +278,7 @@ static Rgb illuminate_by_area(const Lit *lit, uint32_t index, unsigned lamp)
     Shade *s = lit->s;
     const Light *light = &s->t->world->light[index];
     Beam centre;
-    light_towards(light, light->location, s->surface->p, &centre);
+    light_towards(light, &light->location, &s->surface->p, &centre);
     centre.colour = light->colour;             /* each sample fades on its own */
     Rgb sum = rgb_grey(0);
     if (!shadowed(s, index, lamp, &centre))
@@ -289,7 +290,7 @@ static Rgb illuminate_by_area(const Lit *lit, uint32_t index, unsigned lamp)
         for (int u = 0; u < n1; u++) {
             Beam beam;
             Vec3 from = add(light->location, area_sample_place(s->t, light, &axes, u, v));
-            if (!light_beam(light, from, s->surface->p, share, &beam))
+            if (!light_beam(light, &from, &s->surface->p, share, &beam))
                 continue;
             Facing facing = facing_of(lit, &beam.l);
             if (is_lit(lit, facing))
@@ -327,7 +328,7 @@ __attribute__((always_inline)) static inline Rgb illuminate(const Lit *lit, uint
     if (lamp & LAMP_PLAIN) {
         aim(&beam, light, sub(light->location, s->surface->p));
         beam.colour = light->colour;
-    } else if (!light_beam(light, light->location, s->surface->p, light->colour, &beam)) {
+    } else if (!light_beam(light, &light->location, &s->surface->p, light->colour, &beam)) {
         return rgb_grey(0);
     }
     Facing facing = facing_of(lit, &beam.l);

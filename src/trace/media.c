@@ -145,7 +145,7 @@ static Rgb light_at(const Stretch *s, Vec3 p, double at)
         const LightSpan *span = &s->t->light_span[i];
         const Light *light = &w->light[span->light];
         Beam beam;
-        if (at < span->from || at > span->to || !light_beam(light, light->location, p, light->colour, &beam))
+        if (at < span->from || at > span->to || !light_beam(light, &light->location, &spot.p, light->colour, &beam))
             continue;
         light_shadowed(&spot, span->light, &beam);
         if (!rgb_is_zero(beam.colour))

@@ -236,8 +236,8 @@ bool shade_transmit(const Shade *s, const Polish *top, Rgb filter, bool filtered
 /* light.c */
 bool light_is_plain(const Light *light);
 /* from: the light's place, or a sample of its area. */
-void light_towards(const Light *light, Vec3 from, Vec3 p, Beam *out);      /* all but the colour */
-bool light_beam(const Light *light, Vec3 from, Vec3 p, Rgb colour, Beam *out);      /* false: no light */
+void light_towards(const Light *light, const Vec3 *from, const Vec3 *p, Beam *out);      /* all but the colour */
+bool light_beam(const Light *light, const Vec3 *from, const Vec3 *p, Rgb colour, Beam *out);      /* false: no light */
 Rgb shade_lights(Shade *s, const Layer *layer, const Vec3 *n);         /* n: perturbed */
 /* Leaves faint lights away, without asking for their shadows; with all that those may let through it would be *most. For scenes
  * with shadows_dim, and finishes without grain and film. */
