@@ -1,8 +1,5 @@
 /* test_patterns.c - every pattern and warp against the measured numbers, asked as scenes ask: by function { pattern { ... } } and
  * function { pigment { ... } }. */
-#include "pattern/fractal.h"
-#include "pattern/pattern.h"    /* before cmocka, which makes a macro of fail */
-
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -178,36 +175,11 @@ static void whole_turns_of_an_orbit_may_be_left_out(void **state)
     scene_free(s);
 }
 
-extern const PatternOps pattern_mandel;        /* its functions serve all kinds */
-
-static void points_of_a_fractal_side_by_side_are_as_one_by_one(void **state)
-{
-    (void)state;
-    enum { N = 31 };
-    Vec3 p[N];
-    for (int i = 0; i < N; i++)
-        p[i] = vec3(-2 + i * 0.123, 0.9 - i % 7 * 0.21, 0);
-    for (int kind = FRACTAL_MANDEL; kind <= FRACTAL_MAGNET_JULIA; kind++)
-        for (int magnet = 1; magnet <= 2; magnet++)
-            for (int type = 0; type <= 6; type++) {
-                Fractal f = { .kind = (FractalKind)kind, .magnet = magnet, .c = { -0.12, 0.75 }, .iterations = 150 + type,
-                              .exponent = magnet == 1 ? 2 : 3, .exterior = type, .interior = type,
-                              .exterior_factor = 0.7, .interior_factor = 1.3 };
-                double many[N];
-                pattern_mandel.values(&f, NULL, p, many, N);
-                for (int i = 0; i < N; i++) {
-                    double one = pattern_mandel.value(&f, &(PatternPoint){ .p = p[i] });
-                    assert_memory_equal(&many[i], &one, sizeof one);
-                }
-            }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_measured_pattern_is_met), cmocka_unit_test(every_measured_warp_is_met),
         cmocka_unit_test(whole_turns_of_an_orbit_may_be_left_out),
-        cmocka_unit_test(points_of_a_fractal_side_by_side_are_as_one_by_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
