@@ -92,13 +92,15 @@ static inline const Nook *find(Tracer *t, Vec3 p, uint32_t light)
     return nook;
 }
 
+/* Half spaces from either side: their surface is flat. */
 static inline bool is_left(const Spot *spot, uint32_t prim, Vec3 l)
 {
     const Surface *surface = spot->surface;
     if (surface == NULL || spot->prim != prim)
         return false;
     double slope = dot(surface->geometric, l);
-    return (surface->back ? -slope : slope) > STEEP;
+    bool flat = spot->t->world->prim[prim].ops->half_space != NULL;
+    return (flat ? fabs(slope) : surface->back ? -slope : slope) > STEEP;
 }
 
 Seen nook_sees(const Spot *spot, uint32_t light, const Beam *beam)
