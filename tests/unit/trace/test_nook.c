@@ -49,7 +49,7 @@ static int n_true_told(const Spot *spot)
 {
     const World *w = spot->t->world;
     Beam beam = { .d = 0 };
-    light_towards(&w->light[0], w->light[0].location, spot->p, &beam);
+    light_towards(&w->light[0], &w->light[0].location, &spot->p, &beam);
     spot->t->nook_credit[0] = 1;
     Seen seen = nook_sees(spot, 0, &beam);
     Ray ray = shadow_ray(spot, beam.l, beam.d);
