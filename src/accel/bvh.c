@@ -228,11 +228,13 @@ static void halve_at_plane(Range *r, Range *other, const Bins *bins, const Split
     Box left = box_none(), right = box_none(); /* middles */
     Item *item = r->item;
     uint32_t i = 0, j = r->n;
+    float lo[4], scale[4];
+    f4_store(lo, bins->lo);
+    f4_store(scale, bins->scale);
     while (i < j) {
-        int32_t bin[4];
         f4 m = box_middle(item_box(&item[i]));
-        bins_of(bins, m, bin);
-        if (bin[s->axis] < s->bin) {
+        /* bins_of on this axis, not cut to a whole number */
+        if ((item[i].lo[s->axis] + item[i].hi[s->axis] - lo[s->axis]) * scale[s->axis] < (float)s->bin) {
             left = box_both(left, (Box){ m, m });
             i++;
         } else {
