@@ -5,7 +5,7 @@
 #include "world/glance.h"
 
 typedef struct { Vec3 centre; double radius; } Params;
-typedef struct { Vec3 centre; double radius, radius2; bool inward; } Sphere;
+typedef struct { Vec3 centre; double radius, radius2, inner2; bool inward; } Sphere;     /* inner2: surely inside, whatever is rounded */
 
 static void parse(Parser *p, void *params)
 {
@@ -23,6 +23,7 @@ static void compile(ShapeBuild *b, const void *params)
     Sphere *out = build_data(b, sizeof *out);
     *out = (Sphere){ .centre = scaled(s->centre, 1 / unit), .radius = r / unit, .inward = s->radius < 0 };
     out->radius2 = out->radius * out->radius;
+    out->inner2 = out->radius2 * (1 - 0x1p-30);
     Affine place = build_place(b, unit);
     build_prim(b, out, &place, shape_padded(bounds_grown((Bounds){ out->centre, out->centre }, out->radius)));
 }
@@ -33,6 +34,8 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
 {
     const Sphere *s = shape;
     Vec3 v = sub(ray->o, s->centre);
+    if (length2(v) < s->inner2 && length2(add(v, scaled(ray->d, hit_limit(sink)))) < s->inner2)
+        return;                                /* from within to within: air around a scene, asked by every shadow ray */
     double a = length2(ray->d), middle = -dot(v, ray->d) / a;
     double h2 = s->radius2 - length2(add(v, scaled(ray->d, middle)));
     if (!(h2 > 0))
