@@ -178,8 +178,9 @@ static inline bool spots_set(Spots *spots, const Vec3 *p, double first, double s
  * in the images that functions make, have no part in the upper layer: its weights are 0. */
 #define FOR_CORNERS(spots, k, first, each)                                                                             \
     const uint16_t *h = noise_tables.hash;                                                                             \
-    const uint16_t *last = noise_tables.corner;                                                                         \
-    unsigned ix = (unsigned)(spots)->cell[k][1], iy = (unsigned)(spots)->cell[k][2], iz = (unsigned)(spots)->cell[k][3]; \
+    const uint16_t *last = noise_tables.corner;                                                                        \
+    unsigned ix = (unsigned)(spots)->cell[k][1], iy = (unsigned)(spots)->cell[k][2];                                   \
+    unsigned iz = (unsigned)(spots)->cell[k][3];                                                                       \
     unsigned h0 = h[ix], h1 = h[ix + 1];                                                                               \
     unsigned h00 = h[h0 ^ iy], h10 = h[h1 ^ iy], h01 = h[h0 ^ (iy + 1)], h11 = h[h1 ^ (iy + 1)];                       \
     CORNER(spots, k, h00 ^ iz, 0, 0, 0, first)                                                                         \
