@@ -155,10 +155,8 @@ static inline const Vec3 *look_at(Shade *s, const TextureLeaf *leaf, const Textu
         *bumps = texture_layer_bumps(leaf, texture, *n, &s->at);
         n = bumps;
     }
-    bool found = true;
+    bool found = true;                         /* else clear white: what is metallic mirrors and shines untinted */
     Colour c = texture_layer_colour(leaf, texture, &s->at, &found);
-    if (!found && tracing->quality > 1)        /* POV: low quality shows the white that stands for nothing */
-        c = (Colour){ 0, 0, 0, 0, 0 };
     look_start(out, tracing, texture->finish, c, found);
     return n;
 }
