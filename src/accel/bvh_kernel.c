@@ -41,7 +41,8 @@ static inline float over(double x)
 /* Three numbers of a ray, and the one that follows them. */
 static inline Axes axes_at(const Ray *ray, size_t offset)
 {
-    return __builtin_convertvector(*(const Axes64 *)(const void *)((const char *)ray + offset), Axes);
+    const double *x = (const double *)(const void *)((const char *)ray + offset);
+    return (Axes){ (float)x[0], (float)x[1], (float)x[2], 0 };
 }
 
 static inline Axes axes_abs(Axes a)
