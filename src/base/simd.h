@@ -55,6 +55,7 @@ static inline void f4_to_int(int32_t out[4], f4 a) { _mm_storeu_si128((__m128i_u
 static inline d4 d4_load(const double *p) { return (d4){ _mm_loadu_pd(p), _mm_loadu_pd(p + 2) }; }
 static inline void d4_store(double *p, d4 x) { _mm_storeu_pd(p, x.a), _mm_storeu_pd(p + 2, x.b); }
 static inline d4 d4_set(double x) { return (d4){ _mm_set1_pd(x), _mm_set1_pd(x) }; }
+static inline d4 d4_of(double a, double b, double c, double d) { return (d4){ _mm_set_pd(b, a), _mm_set_pd(d, c) }; }
 static inline d4 d4_add(d4 x, d4 y) { return (d4){ _mm_add_pd(x.a, y.a), _mm_add_pd(x.b, y.b) }; }
 static inline d4 d4_sub(d4 x, d4 y) { return (d4){ _mm_sub_pd(x.a, y.a), _mm_sub_pd(x.b, y.b) }; }
 static inline d4 d4_mul(d4 x, d4 y) { return (d4){ _mm_mul_pd(x.a, y.a), _mm_mul_pd(x.b, y.b) }; }
@@ -121,6 +122,7 @@ static inline void f4_to_int(int32_t out[4], f4 a) { F4_EACH(out[i] = a.v[i] > -
 static inline d4 d4_load(const double *p) { d4 r; F4_EACH(r.v[i] = p[i]); return r; }
 static inline void d4_store(double *p, d4 a) { F4_EACH(p[i] = a.v[i]); }
 static inline d4 d4_set(double x) { d4 r; F4_EACH(r.v[i] = x); return r; }
+static inline d4 d4_of(double a, double b, double c, double d) { return (d4){ { a, b, c, d } }; }
 static inline d4 d4_add(d4 a, d4 b) { F4_EACH(a.v[i] += b.v[i]); return a; }
 static inline d4 d4_sub(d4 a, d4 b) { F4_EACH(a.v[i] -= b.v[i]); return a; }
 static inline d4 d4_mul(d4 a, d4 b) { F4_EACH(a.v[i] *= b.v[i]); return a; }
