@@ -137,59 +137,102 @@ static inline void moments_add(Moments *m, Rgb c)
 
 static bool moments_settled(const Moments *m, uint32_t n, double threshold)
 {
-    for (int i = 0; i < 4; i++) {
-        double mean = m->sum[i] / n;
-        if (!((m->square[i] / n - mean * mean) / n < threshold))
-            return false;
-    }
-    return true;
+    typedef int64_t Answers __attribute__((vector_size(32)));
+    Quad mean = m->sum / (double)n, spread = (m->square / (double)n - mean * mean) / (double)n;
+    Answers below = spread < threshold;        /* not so where it is NaN */
+    return (below[0] & below[1] & below[2] & below[3]) != 0;
 }
 
-/* POV: all rays start near the location, those of orthographic cameras too. */
-static inline Vec3 blur_eye(const Sampling *all, double x, double y, uint32_t m)
+/* Where a sample lies, from the middle of the pixel. */
+static inline Vec2 blur_within(const Sampling *all, int seed, uint32_t m)
+{
+    const uint16_t *hash = all->hash.permutation;
+    uint32_t at = (uint32_t)seed + m, row = hash[(at + 1) % HASH_SIZE] % 16, column = hash[at % HASH_SIZE] % 16;
+    return all->blur_cell[16 * row + column];
+}
+
+/* Where on the aperture its ray starts: across and down. POV: all rays start near the location, those of orthographic cameras too. */
+static inline Vec2 blur_start(const Sampling *all, double x, double y, uint32_t m)
 {
     const Blur *blur = all->blur;
     Vec2 k = position_jitter(&all->hash, x + 0.5, y - 0.5);
-    double ex = all->radius * (blur->place[m].u + 2 * blur->jitter * k.u);
-    double ey = all->radius * (blur->place[m].v + 2 * blur->jitter * k.v);
-    return sub(scaled(all->across, ex), scaled(all->down, ey));
+    return (Vec2){ all->radius * (blur->place[m].u + 2 * blur->jitter * k.u), all->radius * (blur->place[m].v + 2 * blur->jitter * k.v) };
 }
 
+/* False: nothing is seen there. */
 ALONE static bool blur_bent(Sampler *s, double x, double y, uint32_t m, Colour *out)
 {
     const Sampling *all = s->sampling;
     CameraRay ray;
     if (!camera_ray(&all->camera, x, y, &ray))
         return false;
-    Vec3 e = blur_eye(all, x, y, m);
+    Vec2 start = blur_start(all, x, y, m);
+    Vec3 e = sub(scaled(all->across, start.u), scaled(all->down, start.v));
     ray.o = add(all->camera.def->location, e);
     ray.d = sub(scaled(ray.d, all->focus), e);
     *out = shoot(s, &ray);
     return true;
 }
 
-/* False: nothing is seen there. */
-static inline bool blur_sample(Sampler *s, double x, double y, int seed, uint32_t m, Colour *out)
+/* Four rays. */
+typedef struct Aim { double o[3][FAN_RAYS], d[3][FAN_RAYS]; } Aim;
+
+/* As normalized() has it. */
+static inline Vec3s unit_vectors(Vec3s d)
 {
-    const Sampling *all = s->sampling;
-    const Camera *camera = &all->camera;
-    const uint16_t *hash = all->hash.permutation;
-    uint32_t at = (uint32_t)seed + m, row = hash[(at + 1) % HASH_SIZE] % 16, column = hash[at % HASH_SIZE] % 16;
-    Vec2 within = all->blur_cell[16 * row + column];
-    x += within.u;
-    y += within.v;
-    if (camera->def->kind != CAMERA_PERSPECTIVE || camera->def->normal != NULL)
-        return blur_bent(s, x, y, m, out);
-    Vec2 place = camera_place(camera, x, y);
-    Vec3 e = blur_eye(all, x, y, m);
-    s->ray->d = normalized(sub(scaled(camera_direction(camera, place.u, place.v), all->focus), e));
-    *out = look_from(s, scaled(add(camera->def->location, e), all->world->unit));
-    return true;
+    d4 n = d4_sqrt(vec3s_dot(d, d)), inverse = d4_div(d4_set(1), n);
+    if (d4_lt(d4_set(0), n) != FAN_ALL) {      /* some is the zero vector, and stays it */
+        double length[4], by[4];
+        d4_store(length, n);
+        for (int i = 0; i < 4; i++)
+            by[i] = length[i] > 0 ? 1 / length[i] : 1;
+        inverse = d4_load(by);
+    }
+    return vec3s_scaled(d, inverse);
+}
+
+static inline d4 four_at(const double *x)      /* stored one by one: not to be read at once */
+{
+    return d4_of(x[0], x[1], x[2], x[3]);
+}
+
+/* Of samples m ... m + 3, as blur_bent has them, through a perspective camera without a normal. */
+static void blur_aim(const Sampling *all, double x, double y, int seed, uint32_t m, Aim *out)
+{
+    const CameraDef *def = all->camera.def;
+    double px[FAN_RAYS], py[FAN_RAYS], across[FAN_RAYS], down[FAN_RAYS];
+    for (uint32_t i = 0; i < FAN_RAYS; i++) {
+        uint32_t k = m + i < all->blur->n ? m + i : m;
+        Vec2 within = blur_within(all, seed, k);
+        px[i] = x + within.u;
+        py[i] = y + within.v;
+        Vec2 start = blur_start(all, px[i], py[i], k);
+        across[i] = start.u;
+        down[i] = start.v;
+    }
+    d4 half = d4_set(0.5);
+    d4 u = d4_sub(d4_div(d4_add(four_at(px), half), d4_set(all->camera.width)), half);
+    d4 v = d4_sub(half, d4_div(d4_add(four_at(py), half), d4_set(all->camera.height)));
+    Vec3s d = vec3s_add(vec3s_add(vec3s_set(def->direction), vec3s_scaled(vec3s_set(def->right), u)), vec3s_scaled(vec3s_set(def->up), v));
+    Vec3s e = vec3s_sub(vec3s_scaled(vec3s_set(all->across), four_at(across)), vec3s_scaled(vec3s_set(all->down), four_at(down)));
+    Vec3s o = vec3s_scaled(vec3s_add(vec3s_set(def->location), e), d4_set(all->world->unit));
+    d = unit_vectors(vec3s_sub(vec3s_scaled(d, d4_set(all->focus)), e));
+    d4_store(out->o[0], o.x), d4_store(out->o[1], o.y), d4_store(out->o[2], o.z);
+    d4_store(out->d[0], d.x), d4_store(out->d[1], d.y), d4_store(out->d[2], d.z);
+}
+
+static inline Colour look_aimed(Sampler *s, const Aim *aim, uint32_t i)
+{
+    s->ray->d = vec3(aim->d[0][i], aim->d[1][i], aim->d[2][i]);
+    return look_from(s, vec3(aim->o[0][i], aim->o[1][i], aim->o[2][i]));
 }
 
 ALONE static Colour blurred(Sampler *s, double x, double y)
 {
-    const Blur *blur = s->sampling->blur;
+    const Sampling *all = s->sampling;
+    const Blur *blur = all->blur;
+    bool bends = all->camera.def->kind != CAMERA_PERSPECTIVE || all->camera.def->normal != NULL;
+    Aim aim;
     int seed = (int)(313 * x + 11) + (int)(311 * y + 17);
     Moments moments = { { 0 }, { 0 } };
     Rgb sum = rgb_grey(0);
@@ -199,12 +242,19 @@ ALONE static Colour blurred(Sampler *s, double x, double y)
         uint32_t end = m + (*chunk != 0 ? *chunk++ : 4);
         for (; m < end && m < blur->n; m++) {
             Colour c;
-            if (blur_sample(s, x, y, seed, m, &c)) {
-                sum = rgb_add(sum, four_of(c));
-                moments_add(&moments, four_of(c));
+            if (bends) {
+                Vec2 within = blur_within(all, seed, m);
+                if (!blur_bent(s, x + within.u, y + within.v, m, &c)) {
+                    moments_add(&moments, four_of(NOTHING));
+                    continue;
+                }
             } else {
-                moments_add(&moments, four_of(NOTHING));
+                if (m % FAN_RAYS == 0)
+                    blur_aim(all, x, y, seed, m, &aim);
+                c = look_aimed(s, &aim, m % FAN_RAYS);
             }
+            sum = rgb_add(sum, four_of(c));
+            moments_add(&moments, four_of(c));
         }
         if (m >= blur->n_min && moments_settled(&moments, m, blur->threshold[m]))
             break;
@@ -261,20 +311,6 @@ Colour sampler_colour(Sampler *s, double x, double y)
 static inline Vec3s blends(Vec3 a, Vec3 b, d4 u, Vec3 c, double v)
 {
     return vec3s_add(vec3s_add(vec3s_set(a), vec3s_scaled(vec3s_set(b), u)), vec3s_set(scaled(c, v)));
-}
-
-/* As normalized() has it. */
-static inline Vec3s unit_vectors(Vec3s d)
-{
-    d4 n = d4_sqrt(vec3s_dot(d, d)), inverse = d4_div(d4_set(1), n);
-    if (d4_lt(d4_set(0), n) != FAN_ALL) {      /* some is the zero vector, and stays it */
-        double length[4], by[4];
-        d4_store(length, n);
-        for (int i = 0; i < 4; i++)
-            by[i] = length[i] > 0 ? 1 / length[i] : 1;
-        inverse = d4_load(by);
-    }
-    return vec3s_scaled(d, inverse);
 }
 
 void sampler_row(Sampler *s, double x, double y, int n)
