@@ -42,9 +42,10 @@ static inline size_t arena_align(size_t bytes)
  * `bytes`, 16 at most: what is no multiple of the alignment it needs, asks for more bytes. Never NULL. */
 static inline void *arena_alloc(Arena *a, size_t bytes)
 {
-    char *p = a->next + (-(uintptr_t)a->next & (arena_align(bytes) - 1));
-    if (p < a->clean || p > a->end || (size_t)(a->end - p) <= bytes || a->limit != 0)
+    size_t room = (size_t)(a->end - a->next), gap = -(uintptr_t)a->next & (arena_align(bytes) - 1);
+    if (room <= gap || room - gap <= bytes || a->next < a->clean || a->limit != 0)
         return arena_alloc_slow(a, bytes);
+    char *p = a->next + gap;
     a->next = a->clean = p + bytes;
     a->used += bytes;
     return p;
