@@ -26,7 +26,9 @@ static inline Vec4 julia_start(const JuliaSet *j, Vec3 p)
     return (Vec4){ p.x, p.y, p.z, t };
 }
 
-/* What is known of points on o + s u, the first at s, each a least step behind the one before. */
+typedef struct JuliaLine { Vec3 o, u; } JuliaLine;               /* o + s u, u of unit length */
+
+/* What is known of points on a line, the first at s, each a least step behind the one before. */
 typedef struct JuliaRun {
     int n;                                     /* at least 1: as many as the ray surely goes to */
     uint32_t inside;                           /* bit i: point i is inside */
@@ -35,9 +37,9 @@ typedef struct JuliaRun {
 
 typedef struct JuliaKernel {
     /* `alone`: this point will do. */
-    JuliaRun (*ahead)(const JuliaSet *j, Vec3 o, Vec3 u, double s, bool alone);
+    JuliaRun (*ahead)(const JuliaSet *j, const JuliaLine *l, double s, bool alone);
     /* Where inside and outside meet between lo and hi: bisected; the inner end. */
-    double (*closed_in)(const JuliaSet *j, Vec3 o, Vec3 u, double lo, double hi, bool inside_lo);
+    double (*closed_in)(const JuliaSet *j, const JuliaLine *l, double lo, double hi, bool inside_lo);
     /* Of a quaternion's last point: its gradient, of any length. */
     Vec3 (*normal)(const JuliaSet *j, Vec3 p);
     /* Bit i: a point of the ball around centre[i] might be inside. */

@@ -331,8 +331,8 @@ static bool hyper_step(const Julia *j, Vec3 p, Vec3 d, double *step)
 /* ---- compiling ---- */
 
 #define DECLARE(isa) \
-    JuliaRun julia_ahead_##isa(const JuliaSet *, Vec3, Vec3, double, bool); \
-    double julia_closed_in_##isa(const JuliaSet *, Vec3, Vec3, double, double, bool); \
+    JuliaRun julia_ahead_##isa(const JuliaSet *, const JuliaLine *, double, bool); \
+    double julia_closed_in_##isa(const JuliaSet *, const JuliaLine *, double, double, bool); \
     Vec3 julia_normal_##isa(const JuliaSet *, Vec3); \
     uint32_t julia_may_hold_##isa(const JuliaSet *, const Vec3 *, double); \
     static const JuliaKernel kernel_##isa = { julia_ahead_##isa, julia_closed_in_##isa, julia_normal_##isa, julia_may_hold_##isa };
@@ -370,24 +370,24 @@ static void compile(ShapeBuild *b, const void *params)
 
 /* ---- along a ray ---- */
 
-static JuliaRun ahead(const Julia *j, Vec3 o, Vec3 u, double s, bool alone)
+static inline JuliaRun ahead(const Julia *j, const JuliaLine *l, double s, bool alone)
 {
     if (j->kernel != NULL)
-        return j->kernel->ahead(&j->set, o, u, s, alone);
+        return j->kernel->ahead(&j->set, l, s, alone);
     JuliaRun run = { .n = 1 };
-    run.inside = hyper_step(j, add(o, scaled(u, s)), u, &run.step);
+    run.inside = hyper_step(j, add(l->o, scaled(l->u, s)), l->u, &run.step);
     return run;
 }
 
-static double closed_in(const Julia *j, Vec3 o, Vec3 u, double lo, double hi, bool inside_lo)
+static double closed_in(const Julia *j, const JuliaLine *l, double lo, double hi, bool inside_lo)
 {
     if (j->kernel != NULL)
-        return j->kernel->closed_in(&j->set, o, u, lo, hi, inside_lo);
+        return j->kernel->closed_in(&j->set, l, lo, hi, inside_lo);
     while (hi - lo > JULIA_ACCURACY) {
         double middle = 0.5 * (lo + hi);
         if (middle <= lo || middle >= hi)
             break;
-        if (holds(j, add(o, scaled(u, middle))) == inside_lo)
+        if (holds(j, add(l->o, scaled(l->u, middle))) == inside_lo)
             lo = middle;
         else
             hi = middle;
@@ -399,37 +399,39 @@ static void hits(const void *shape, const Ray *ray, HitSink *sink)
 {
     const Julia *j = shape;
     double len = length(ray->d), shift = shape_nearest_t(ray);
-    Vec3 o = ray_at(ray, shift), u = scaled(ray->d, 1 / len);
-    double h2 = j->set.radius * j->set.radius - length2(o);
+    JuliaLine l = { ray_at(ray, shift), scaled(ray->d, 1 / len) };
+    double h2 = j->set.radius * j->set.radius - length2(l.o);
     if (!(h2 > 0))
         return;
-    double out = sqrt(h2), s = fmax(-out, -shift * len + JULIA_ACCURACY), air = j->kernel != NULL ? clearance_from(&j->air, o, u) : out;
+    double out = sqrt(h2), start = -shift * len, s = greater(-out, start + JULIA_ACCURACY);
+    double air = j->kernel != NULL ? clearance_from(&j->air, l.o, l.u) : out;
     if (!(s < out) || s > air)
         return;
-    double near = -shift * len > -out ? -shift * len + NEAREST : -INFINITY;
-    JuliaRun run = ahead(j, o, u, s, true);
+    double near = start > -out ? start + NEAREST : -INFINITY, limit = (hit_limit(sink) - shift) * len;
+    JuliaRun run = ahead(j, &l, s, true);
     bool inside_now = run.inside & 1;
     if (inside_now) {
         s += 2 * JULIA_ACCURACY;
-        run = ahead(j, o, u, s, true);
+        run = ahead(j, &l, s, true);
         inside_now = run.inside & 1;
     }
     for (int i = 0;;) {
         double previous = s;
         s += i + 1 < run.n ? j->set.step : run.step;
-        if (s > out || (previous > air && !inside_now) || (previous / len) + shift > hit_limit(sink))
+        if (s > out || previous > limit || (previous > air && !inside_now))
             return;
         if (++i == run.n) {
-            run = ahead(j, o, u, s, run.step != j->set.step);
+            run = ahead(j, &l, s, run.step != j->set.step);
             i = 0;
         }
         bool now = run.inside >> i & 1;
         if (now == inside_now)
             continue;
-        double hit = closed_in(j, o, u, previous, s, inside_now);
+        double hit = closed_in(j, &l, previous, s, inside_now);
         if (hit < near)
             return;
         hit_add(sink, shift + hit / len, 0);
+        limit = (hit_limit(sink) - shift) * len;
         inside_now = now;
     }
 }

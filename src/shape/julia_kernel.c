@@ -66,9 +66,9 @@ INLINE Points started(const JuliaSet *j, Lanes x, Lanes y, Lanes z)
     return (Points){ x, y, z, (j->slice_distance - (j->slice.x * x + j->slice.y * y + j->slice.z * z)) / j->slice.t };
 }
 
-INLINE Points on_line(const JuliaSet *j, Vec3 o, Vec3 u, Lanes s)
+INLINE Points on_line(const JuliaSet *j, const JuliaLine *l, Lanes s)
 {
-    return started(j, o.x + u.x * s, o.y + u.y * s, o.z + u.z * s);
+    return started(j, l->o.x + l->u.x * s, l->o.y + l->u.y * s, l->o.z + l->u.z * s);
 }
 
 /* ---- quaternions ---- */
@@ -312,21 +312,21 @@ INLINE uint32_t holds(const JuliaSet *j, Points p)
     return j->hypercomplex ? square_holds(j, p) : j->cube ? quaternion_holds(j, p, true) : quaternion_holds(j, p, false);
 }
 
-JuliaRun ISA_NAME(julia_ahead)(const JuliaSet *j, Vec3 o, Vec3 u, double s, bool alone)
+JuliaRun ISA_NAME(julia_ahead)(const JuliaSet *j, const JuliaLine *l, double s, bool alone)
 {
     if (alone && !j->hypercomplex) {
-        Vec3 p = add(o, scaled(u, s));
+        Vec3 p = add(l->o, scaled(l->u, s));
         return j->cube ? quaternion_at(j, p, true) : quaternion_at(j, p, false);
     }
     double at[WIDTH];
     for (int i = 0; i < WIDTH; i++, s += j->step)
         at[i] = s;
-    Points p = on_line(j, o, u, load(at));
-    return j->hypercomplex ? square_ahead(j, p, u) : j->cube ? quaternion_ahead(j, p, true) : quaternion_ahead(j, p, false);
+    Points p = on_line(j, l, load(at));
+    return j->hypercomplex ? square_ahead(j, p, l->u) : j->cube ? quaternion_ahead(j, p, true) : quaternion_ahead(j, p, false);
 }
 
 /* A tree of middles: those of [lo, middle i] and [middle i, hi] are the numbers 2 i and 2 i + 1. */
-double ISA_NAME(julia_closed_in)(const JuliaSet *j, Vec3 o, Vec3 u, double lo, double hi, bool inside_lo)
+double ISA_NAME(julia_closed_in)(const JuliaSet *j, const JuliaLine *l, double lo, double hi, bool inside_lo)
 {
     double from[2 * WIDTH], to[2 * WIDTH], middle[WIDTH];
     for (;;) {
@@ -339,7 +339,7 @@ double ISA_NAME(julia_closed_in)(const JuliaSet *j, Vec3 o, Vec3 u, double lo, d
             to[2 * i + 1] = to[i];
         }
         middle[0] = middle[1];
-        uint32_t inside = holds(j, on_line(j, o, u, load(middle)));
+        uint32_t inside = holds(j, on_line(j, l, load(middle)));
         for (int i = 1; i < WIDTH;) {
             if (!(hi - lo > JULIA_ACCURACY) || middle[i] <= lo || middle[i] >= hi)
                 return inside_lo ? lo : hi;
