@@ -2,7 +2,8 @@
  *
  * A point is inside when its orbit z -> f(z) + c stays small. A ray marches through the ball that holds the set, by
  * an estimate of the distance and at least by 1 / precision, and closes in where inside and outside change. The set has a
- * size of its own, so lengths here are as written, and the accuracy of 1e-7 is one of the set (08-shapes, section 15). */
+ * size of its own, so lengths here are as written, and the accuracy of 1e-7 is one of the set (08-shapes, section 15).
+ * Sets of powers are marched through by julia_kernel.c, several points at a time, and no farther than clearance.c says. */
 #include <complex.h>
 #undef I
 
@@ -177,13 +178,12 @@ static Vec4 quaternion_next(const Julia *j, Vec4 z)
     return (Vec4){ real + c.x, f * z.y + c.y, f * z.z + c.z, f * z.t + c.t };
 }
 
-/* How many of n steps before |z|^2 exceeds the limit. */
-static int quaternion_orbit(const Julia *j, Vec4 z)
+static bool quaternion_holds(const Julia *j, Vec4 z)
 {
     int k = 0;
     for (; k < j->set.n && norm2(z) <= j->set.escape; k++)
         z = quaternion_next(j, z);
-    return k;
+    return k == j->set.n;
 }
 
 /* Two complex numbers on which everything hypercomplex acts alike: (x - w, y + z) and (x + w, y - z). */
@@ -261,7 +261,7 @@ static int square_orbit(const Julia *j, double escape, Pair *z, double *norm, Pa
     return k;
 }
 
-/* As quaternion_orbit. *norm: the last |z|^2. *z becomes the last point, *product that of the slopes. */
+/* How many of n steps before |z|^2, in *norm, exceeds the limit. *z becomes the last point, *product that of the slopes. */
 static int hyper_orbit(const Julia *j, double escape, Pair *z, double *norm, Pair *product)
 {
     if (j->map == NULL)
@@ -288,7 +288,7 @@ static bool holds(const Julia *j, Vec3 p)
 {
     double norm;
     if (!j->set.hypercomplex)
-        return quaternion_orbit(j, julia_start(&j->set, p)) == j->set.n;
+        return quaternion_holds(j, julia_start(&j->set, p));
     Pair z = plain_start(j, p), c = pair_of(j->set.c), product;
     if (j->map == NULL)
         return square_orbit(j, j->set.escape, &z, &norm, &product) == j->set.n;
@@ -301,16 +301,15 @@ static bool holds(const Julia *j, Vec3 p)
     return true;
 }
 
-/* The gradient of |z_k|^2 / 2 along the orbit from z0, as the reference has it. */
-static Vec3 hyper_gradient(const Julia *j, Pair product, Pair last, int k)
+/* The gradient of |z_k|^2 / 2 along the orbit from z0, as the reference has it; for the square, up to a factor of 2^k. */
+static Vec3 hyper_gradient(Pair product, Pair last)
 {
-    double f = j->map == NULL ? ldexp(1, k) : 1;
     Vec4 m = of_pair(product), z = of_pair(last);
-    return scaled(vec3(m.x * z.x + m.y * z.y + m.z * z.z + m.t * z.t, -m.y * z.x + m.x * z.y - m.t * z.z + m.z * z.t,
-                       -m.z * z.x - m.t * z.y + m.x * z.z + m.y * z.t), f);
+    return vec3(m.x * z.x + m.y * z.y + m.z * z.z + m.t * z.t, -m.y * z.x + m.x * z.y - m.t * z.z + m.z * z.t,
+                -m.z * z.x - m.t * z.y + m.x * z.z + m.y * z.t);
 }
 
-/* Is p inside? If not, `step` is what the ray may go on by. */
+/* Of a function other than the square: is p inside? If not, `step` is what the ray may go on by. */
 static bool hyper_step(const Julia *j, Vec3 p, Vec3 d, double *step)
 {
     Pair z = pair_of(julia_start(&j->set, p)), product;
@@ -319,7 +318,7 @@ static bool hyper_step(const Julia *j, Vec3 p, Vec3 d, double *step)
     *step = j->set.step;
     if (k == j->set.n)
         return true;
-    double slope = dot(hyper_gradient(j, product, z, k), d);
+    double slope = dot(hyper_gradient(product, z), d);
     if (slope < -1e-8) {
         double estimate = n / (-2 * slope);
         if (estimate > j->set.step && estimate < 30 * j->set.step)
@@ -450,7 +449,7 @@ static Vec3 hyper_normal(const Julia *j, Vec3 p)
     Pair z = plain_start(j, p), product;
     double norm;
     hyper_orbit(j, INFINITY, &z, &norm, &product);
-    return hyper_gradient(j, product, z, 0);
+    return hyper_gradient(product, z);
 }
 
 static void surface(const void *shape, const Hit *hit, Surface *out)
