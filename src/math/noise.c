@@ -1,13 +1,14 @@
 /* noise.c - builds the tables of noise and picks the kernel for this machine.
  *
- * The tables are made by a congruential generator and by the Mersenne twister (Matsumoto and Nishimura 1998) from fixed
- * seeds, as 06-noise-and-patterns, section 2 tells. They are filled before main, so that no reader needs a lock; those of generator
- * 3, the largest and the one least asked for, at its first use. */
+ * The tables are made by a congruential generator and by the Mersenne twister from fixed seeds, as 06-noise-and-patterns, section 2
+ * tells. They are filled before main, so that no reader needs a lock; those of generator 3, the largest and the one least asked for,
+ * at its first use. */
 #include "math/noise.h"
 
 #include <pthread.h>
 
 #include "base/cpu.h"
+#include "math/mersenne.h"
 #include "math/noise_tables.h"
 
 NoiseTables noise_tables;
@@ -103,36 +104,11 @@ static void make_generator3(void)
     }
 }
 
-/* MT19937, seed 5489. */
-static void make_random(NoiseTables *t)
-{
-    enum { N = 624, M = 397 };
-    uint32_t mt[N];
-    mt[0] = 5489;
-    for (uint32_t i = 1; i < N; i++)
-        mt[i] = 1812433253u * (mt[i - 1] ^ mt[i - 1] >> 30) + i;
-    for (unsigned k = 0, at = N; k < NOISE_CELLS + 2; k++) {
-        if (at == N) {
-            for (unsigned i = 0; i < N; i++) {
-                uint32_t y = (mt[i] & 0x80000000u) | (mt[(i + 1) % N] & 0x7fffffffu);
-                mt[i] = mt[(i + M) % N] ^ y >> 1 ^ (y & 1 ? 0x9908b0dfu : 0);
-            }
-            at = 0;
-        }
-        uint32_t y = mt[at++];
-        y ^= y >> 11;
-        y ^= y << 7 & 0x9d2c5680u;
-        y ^= y << 15 & 0xefc60000u;
-        y ^= y >> 18;
-        t->random[k] = y / 4294967296.0;
-    }
-}
-
 __attribute__((constructor)) static void make_tables(void)
 {
     make_hash(&noise_tables);
     make_gradients(&noise_tables);
-    make_random(&noise_tables);
+    mersenne_fill(noise_tables.random, NOISE_CELLS + 2);
     kernel = kernels[cpu_isa()];
 }
 

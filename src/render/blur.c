@@ -2,6 +2,7 @@
 #include "render/blur.h"
 
 #include "math/chi_square.h"
+#include "math/mersenne.h"
 #include "texture/texture.h"
 #include "trace/random.h"
 
@@ -94,7 +95,7 @@ static void fill_up(Arena *arena, Vec2 *place, uint32_t have, uint32_t n)
 static void fill_bokeh(const Pigment *bokeh, Vec2 *place, uint32_t n)
 {
     Mersenne chance;
-    mersenne_seed(&chance, 5489);
+    mersenne_seed(&chance, MERSENNE_SEED);
     mersenne_next(&chance);
     uint32_t k = 0;
     for (uint32_t i = 0; i < n; i++) {

@@ -6,6 +6,7 @@
 #include <pthread.h>
 
 #include "base/thread.h"
+#include "math/mersenne.h"
 #include "render/antialias.h"
 
 typedef struct Render {
@@ -57,7 +58,7 @@ static double *wobble_new(Arena *arena)
 {
     double *table = arena_array(arena, double, WOBBLES);
     Mersenne m;
-    mersenne_seed(&m, 5489);
+    mersenne_seed(&m, MERSENNE_SEED);
     for (int i = 0; i < WOBBLES; i++)
         table[i] = mersenne_next(&m) / 2147483648.0 - 1;
     return table;

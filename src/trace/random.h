@@ -10,21 +10,11 @@
 
 #include "math/vec.h"
 
-enum { MERSENNE_N = 624, STREAM_SIZE = 32768, HASH_SIZE = 4096 };
-
-typedef struct Mersenne {                      /* MT19937 */
-    uint32_t state[MERSENNE_N];
-    uint32_t next;
-} Mersenne;
-
-void mersenne_seed(Mersenne *m, uint32_t seed);
-uint32_t mersenne_next(Mersenne *m);
+enum { STREAM_SIZE = 32768, HASH_SIZE = 4096 };
 
 /* Streams A (area lights and rainbows) and M (media), each read at its own place. */
-void stream_fill(double table[STREAM_SIZE]);
-
 typedef struct Streams {
-    const double *table;                       /* of stream_fill */
+    const double *table;                       /* [STREAM_SIZE], by mersenne_fill */
     uint32_t at, media_at;                     /* last entries used */
     uint32_t grain;                            /* state of the generator behind crand */
     bool used;                                 /* since the start */

@@ -1,6 +1,7 @@
 /* setup.c - what tracing needs to know of a World, worked out once per picture. */
 #include "base/arena.h"
 #include "math/chi_square.h"
+#include "math/mersenne.h"
 #include "trace/path.h"
 
 /* ---- does anything map by uv? ---- */
@@ -271,7 +272,7 @@ const Tracing *tracing_new(Arena *arena, const World *w, int quality, bool alpha
     prepare_media(arena, tracing, w);
     if (wants_stream(w, tracing)) {
         tracing->stream = arena_array(arena, double, STREAM_SIZE);
-        stream_fill(tracing->stream);
+        mersenne_fill(tracing->stream, STREAM_SIZE);
     }
     tracing->shadows_dim = shadows_dim(w, tracing);
     tracing->coat = coats_new(arena, tracing, w);

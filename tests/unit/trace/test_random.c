@@ -6,6 +6,7 @@
 #include <cmocka.h>
 
 #include "base/arena.h"
+#include "math/mersenne.h"
 #include "trace/random.h"
 
 static void the_twister_is_the_standard_one(void **state)
@@ -24,7 +25,7 @@ static void the_stream_starts_with_its_second_entry(void **state)
     (void)state;
     static double table[STREAM_SIZE];
     static const double expected[] = { 0.135477, 0.905792, 0.835009, 0.126987, 0.968868, 0.913376 };
-    stream_fill(table);
+    mersenne_fill(table, STREAM_SIZE);
     Streams s;
     streams_start(&s, table, 0);
     for (int i = 0; i < 6; i++)
@@ -39,7 +40,7 @@ static void skipping_is_drawing_without_looking(void **state)
     (void)state;
     static const uint32_t counts[] = { 0, 1, 32, STREAM_SIZE - 1, STREAM_SIZE + 5 };
     static double table[STREAM_SIZE];
-    stream_fill(table);
+    mersenne_fill(table, STREAM_SIZE);
     for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
         Streams drawn, skipped;
         streams_start(&drawn, table, 3);
@@ -55,7 +56,7 @@ static void tiles_start_in_different_places(void **state)
 {
     (void)state;
     static double table[STREAM_SIZE];
-    stream_fill(table);
+    mersenne_fill(table, STREAM_SIZE);
     for (uint32_t tile = 1; tile < 1000; tile++) {
         Streams a, b;
         streams_start(&a, table, tile - 1);
