@@ -545,12 +545,23 @@ Colour media_bodies(Tracer *t, const Path *path, const Material *lit_for, double
     return s.n > 0 ? seen_through(through(&s), c) : c;
 }
 
+/* What extinction leaves of light. Where all is even, one number of the stream is drawn all the same. */
+static Rgb left_by(Stretch *s)
+{
+    if (s->n == 0)
+        return rgb_grey(1);
+    if (!s->even)
+        return dimmed(through(s).depth);
+    (void)chance(s);
+    return dimmed(rgb_scaled(s->matter.extinction, (float)(s->length * s->t->tracing->to_scene)));
+}
+
 Rgb media_dims_air(Tracer *t, Vec3 o, Vec3 d, double depth)
 {
     Stretch s;
     stretch_start(&s, t, o, d, depth, NULL);
     add_air(&s);
-    return s.n > 0 ? dimmed(through(&s).depth) : rgb_grey(1);
+    return left_by(&s);
 }
 
 Rgb media_dims_bodies(Tracer *t, const Interiors *in, Vec3 o, Vec3 d, double depth)
@@ -560,5 +571,5 @@ Rgb media_dims_bodies(Tracer *t, const Interiors *in, Vec3 o, Vec3 d, double dep
     Stretch s;
     stretch_start(&s, t, o, d, depth, NULL);
     add_bodies(&s, in);
-    return s.n > 0 ? dimmed(through(&s).depth) : rgb_grey(1);
+    return left_by(&s);
 }
