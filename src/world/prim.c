@@ -427,10 +427,10 @@ static Vec3 towards_ray(const Affine *place, const Ray *ray)
     return normalized(negated(affine_vector_back(place, ray->d)));
 }
 
-/* The same arithmetic with and without a place: one that only scales by a power of two must change no bit. Without `smooth` both
- * normals are one. */
-static inline void carry_normals(const Affine *place, bool smooth, double world_error, const Ray *ray, Surface *s, Vec3 *normal,
-                                 Vec3 *geometric)
+/* The same arithmetic with and without a place: one that only scales by a power of two must change no bit. Returns the normal; without
+ * `smooth` both are one. Inline, as all waits for it: what comes back through memory comes late. */
+__attribute__((always_inline)) static inline Vec3 carry_normals(const Affine *place, bool smooth, double world_error, const Ray *ray,
+                                                                Surface *s, Vec3 *geometric)
 {
     double l = length(s->normal);
     Vec3 n = l > 0 ? scaled(s->normal, 1 / l) : is_zero(s->normal) ? towards_ray(place, ray) : s->normal;
@@ -438,24 +438,26 @@ static inline void carry_normals(const Affine *place, bool smooth, double world_
     double stretch = length(across), error = s->error / stretch;
     s->error = error > world_error ? error : world_error;  /* planes a apart become planes a / |across| apart */
     *geometric = stretch > 0 ? scaled(across, 1 / stretch) : across;
-    *normal = smooth ? normalized(affine_normal(place, n)) : *geometric;
+    return smooth ? normalized(affine_normal(place, n)) : *geometric;
 }
 
 static inline void turn_to_ray(Surface *s, Vec3 n, Vec3 d)
 {
     s->back = dot(n, d) > 0;
     n = s->back ? negated(n) : n;
-    s->normal = n;
-    s->geometric = n;
+    d2 xy = d2_of(n.x, n.y);                   /* stored as they will be loaded: both at once */
+    d2_store(&s->normal.x, xy);
+    s->normal.z = n.z;
+    d2_store(&s->geometric.x, xy);
+    s->geometric.z = n.z;
 }
 
 #define ALONE __attribute__((noinline))
 
 ALONE static void carry_face(const Affine *place, const Ray *ray, double t, Surface *s)
 {
-    Vec3 n, g;
-    carry_normals(place, false, error_at(ray->o, ray->d, t), ray, s, &n, &g);
-    s->normal = n;
+    Vec3 g;
+    s->normal = carry_normals(place, false, error_at(ray->o, ray->d, t), ray, s, &g);
 }
 
 /* The normal of a face is mostly of length 1 and stays as it is: no need to wait for roots and quotients that are 1. */
@@ -488,9 +490,9 @@ ALONE static void placed_surface(const World *w, const Prim *prim, const Ray *ra
         out->geometric = vec3(0, 0, 0);
     ops->surface(prim->data, hit, out);
 
-    Vec3 n, g;
+    Vec3 g;
     smooth = smooth && !is_zero(out->geometric);
-    carry_normals(place, smooth, world_error, ray, out, &n, &g);
+    Vec3 n = carry_normals(place, smooth, world_error, ray, out, &g);
     if (!place->identity)
         out->p = same_point(out->p, local) ? ray_at(ray, hit->t) : affine_apply(place->m, out->p);
     bool turned = (prim->flags & PRIM_INVERSE) && !(ops->flags & SHAPE_NORMAL_STAYS);
