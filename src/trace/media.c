@@ -76,25 +76,25 @@ static void add_bodies(Stretch *s, const Interiors *in)
 }
 
 /* The last one is asked first, which often is the shape that the others fill: where it is 0, they are not asked. */
-static __attribute__((noinline)) Rgb density_product(const Media *m, Vec3 p)
+static __attribute__((noinline)) Rgb density_product(const Media *m, const Vec3 *p)
 {
     uint32_t n = m->n_density, i = n;
     Rgb factor[DENSITIES_MAX], density = rgb_grey(1);
     while (i > 0 && n <= DENSITIES_MAX) {
         i--;
-        factor[i] = rgb_of(pigment_colour(m->density[i], p, NULL, NULL));
+        factor[i] = rgb_of(pigment_colour(m->density[i], *p, NULL, NULL));
         if (rgb_is_zero(factor[i]))
             return rgb_grey(0);
     }
     for (i = 0; i < n; i++)
-        density = rgb_mul(density, n <= DENSITIES_MAX ? factor[i] : rgb_of(pigment_colour(m->density[i], p, NULL, NULL)));
+        density = rgb_mul(density, n <= DENSITIES_MAX ? factor[i] : rgb_of(pigment_colour(m->density[i], *p, NULL, NULL)));
     return density;
 }
 
-static inline Rgb density_at(const Media *m, Vec3 p)
+static inline Rgb density_at(const Media *m, const Vec3 *p)
 {
     if (m->n_density == 1)
-        return rgb_of(pigment_colour(m->density[0], p, NULL, NULL));
+        return rgb_of(pigment_colour(m->density[0], *p, NULL, NULL));
     return m->n_density == 0 ? rgb_grey(1) : density_product(m, p);
 }
 
@@ -109,7 +109,7 @@ static Matter matter_at(const Stretch *s, Vec3 p)
             place = c->place;
             local = place != NULL ? affine_point_back(place, p) : p;
         }
-        matter_add(&all, c->media, c->lost, density_at(c->media, local));
+        matter_add(&all, c->media, c->lost, density_at(c->media, &local));
     }
     return all;
 }
