@@ -1,8 +1,9 @@
 /* superellipsoid.c - superellipsoid { <e, n> }: (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) = 1.
  *
  * Traced by the norm g(g(|x|, |y|; 2/e), |z|; 2/n) - 1 with g(a, b; p) = (a^p + b^p)^(1/p), which grows in proportion to the
- * distance from the origin whatever the exponents. If it is convex, Newton's steps find it. If not, the planes x = +-y, y = +-z, z = +-x and those of the axes cut a ray into
- * pieces on which it is smooth and turns at most once; each piece is searched by the signs at its ends and of its slopes. */
+ * distance from the origin whatever the exponents. If it is convex, Newton's steps find it. If not, the planes x = +-y, y = +-z,
+ * z = +-x and those of the axes cut a ray into pieces on which it is smooth and seldom turns more than once; each piece is searched
+ * by the signs at its ends and of its slopes. */
 #include "sdl/parse.h"
 #include "shape/shape.h"
 
