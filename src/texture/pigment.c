@@ -81,7 +81,7 @@ ALONE static Colour image(const Pigment *pigment, const Vec3 *p, bool *found)
 
 static const TextureContext nowhere = { .quality = 9 };
 
-Colour pigment_colour(const Pigment *pigment, Vec3 p, const TextureContext *at, bool *found)
+Colour pigment_colour_at(const Pigment *pigment, const Vec3 *p, const TextureContext *at, bool *found)
 {
     if (at == NULL)
         at = &nowhere;
@@ -89,9 +89,9 @@ Colour pigment_colour(const Pigment *pigment, Vec3 p, const TextureContext *at, 
         return *pigment->quick;
     switch (pigment->kind) {
     case PIGMENT_PLAIN: return pigment->colour;
-    case PIGMENT_PATTERN: return pigment_patterned(pigment, &p, at);
-    case PIGMENT_AVERAGE: return average(pigment, &p, at);
-    case PIGMENT_IMAGE: return image(pigment, &p, found);
+    case PIGMENT_PATTERN: return pigment_patterned(pigment, p, at);
+    case PIGMENT_AVERAGE: return average(pigment, p, at);
+    case PIGMENT_IMAGE: return image(pigment, p, found);
     case PIGMENT_UV: return pigment_colour(pigment->map.entry[0].pigment, vec3(at->uv.u, at->uv.v, 0), at, found);
     }
     return pigment->colour;

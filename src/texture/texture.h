@@ -9,8 +9,13 @@
 #include "world/world.h"
 
 /* p in the space the pigment was written in. `found` (may be NULL) is set to false where an image with `once` has nothing:
- * the colour is then rgb 1, transmit 1. */
-Colour pigment_colour(const Pigment *pigment, Vec3 p, const TextureContext *at, bool *found);
+ * the colour is then rgb 1, transmit 1. By pointer, since a copy just stored would be waited for. */
+Colour pigment_colour_at(const Pigment *pigment, const Vec3 *p, const TextureContext *at, bool *found);
+
+static inline Colour pigment_colour(const Pigment *pigment, Vec3 p, const TextureContext *at, bool *found)
+{
+    return pigment_colour_at(pigment, &p, at, found);
+}
 
 /* The same for n <= PATTERN_MANY points where there is no surface, as functions ask them. Same bits. */
 void pigment_colours(const Pigment *pigment, const Vec3 *p, Colour *out, int n);

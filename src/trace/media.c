@@ -82,19 +82,19 @@ static __attribute__((noinline)) Rgb density_product(const Media *m, const Vec3 
     Rgb factor[DENSITIES_MAX], density = rgb_grey(1);
     while (i > 0 && n <= DENSITIES_MAX) {
         i--;
-        factor[i] = rgb_of(pigment_colour(m->density[i], *p, NULL, NULL));
+        factor[i] = rgb_of(pigment_colour_at(m->density[i], p, NULL, NULL));
         if (rgb_is_zero(factor[i]))
             return rgb_grey(0);
     }
     for (i = 0; i < n; i++)
-        density = rgb_mul(density, n <= DENSITIES_MAX ? factor[i] : rgb_of(pigment_colour(m->density[i], *p, NULL, NULL)));
+        density = rgb_mul(density, n <= DENSITIES_MAX ? factor[i] : rgb_of(pigment_colour_at(m->density[i], p, NULL, NULL)));
     return density;
 }
 
 static inline Rgb density_at(const Media *m, const Vec3 *p)
 {
     if (m->n_density == 1)
-        return rgb_of(pigment_colour(m->density[0], *p, NULL, NULL));
+        return rgb_of(pigment_colour_at(m->density[0], p, NULL, NULL));
     return m->n_density == 0 ? rgb_grey(1) : density_product(m, p);
 }
 
