@@ -214,7 +214,7 @@ INLINE Piece remainder_of(Piece a, Piece b)
 /* `holds` and `fails` say what is sure. */
 INLINE Piece compared(bool holds, bool fails)
 {
-    double sure = holds | fails ? 0 : INFINITY;
+    double sure = (holds | fails) ? 0 : INFINITY;
     return (Piece){ holds ? 1 : 0, fails ? 0 : 1, sure, sure };
 }
 
@@ -253,7 +253,7 @@ INLINE Piece noise(Piece a, Piece b, Piece c, int generator)
     }
 #define ONE(name, value) STEP(name, , value)
 #define TWO(name, value) STEP(name, const Row *y = row_of(r, i->b);, ({ Piece b = at(y, l); value; }))
-#define THREE(name, value)                                                                                               \
+#define THREE(name, value)                                                                                             \
     STEP(name, const Row *y = row_of(r, i->b); const Row *z = row_of(r, i->c);, ({ Piece b = at(y, l), c = at(z, l); value; }))
 #define STEPS                                                                                                          \
     ONE(FUNC_NEG, negative(a))                                                                                         \

@@ -30,7 +30,9 @@ static const char *const functions[] = {
 static void calculus_finds_the_roots_that_halving_finds(void **state)
 {
     (void)state;
-    static const char *const ways[] = { "max_gradient 0.6", "max_gradient 3", "max_gradient 12 accuracy 0.0001", "max_gradient 2 open accuracy 0.3" };
+    static const char *const ways[] = {
+        "max_gradient 0.6", "max_gradient 3", "max_gradient 12 accuracy 0.0001", "max_gradient 2 open accuracy 0.3",
+    };
     enum { FUNCTIONS = sizeof functions / sizeof *functions, WAYS = sizeof ways / sizeof *ways, RAYS = 1000 };
     int hits = 0, wrong = 0;
     Dice d = { 5 };
