@@ -62,13 +62,12 @@ static void make_hash(NoiseTables *t)
 
 static void make_gradients(NoiseTables *t)
 {
-    enum { ROW = sizeof t->gradient[0] / sizeof t->gradient[0][0] };
     for (int i = 0; i < NOISE_GRADIENTS; i++)
         for (int copy = 0; copy < 4; copy++)
-            t->gradient[copy][i + copy] = gradients[i];
+            t->gradient[copy * NOISE_GRADIENT_ROW + i + copy] = gradients[i];
     for (int i = 0; i < 8192; i++) {
         int from = t->hash[i] & 255, copy = -from & 3;
-        t->corner[i] = (uint16_t)(copy * ROW + from + copy);
+        t->corner[i] = (uint16_t)(copy * NOISE_GRADIENT_ROW + from + copy);
     }
 }
 

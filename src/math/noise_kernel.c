@@ -196,7 +196,7 @@ static inline bool spots_set(Spots *spots, const Vec3 *p, double first, double s
 
 #define CORNER(spots, k, hash, x, y, z, each)                                                                          \
     {                                                                                                                  \
-        const double *table = noise_tables.gradient[0] + last[hash];                                                   \
+        const double *table = noise_tables.gradient + last[hash];                                                      \
         Quad factors = ((spots)->low[k] - (Quad){ 0, x, y, z }) * (spots)->weight[z][k][(x) + 2 * (y)];                \
         each                                                                                                           \
     }

@@ -7,14 +7,14 @@
 #include "base/cpu.h"
 #include "math/noise.h"
 
-enum { NOISE_GRADIENTS = 267 };
+enum { NOISE_GRADIENTS = 267, NOISE_GRADIENT_ROW = NOISE_GRADIENTS + 5 };
 
 typedef struct NoiseTables {
     uint16_t hash[8192];                       /* H */
     uint16_t corner[8192];                     /* the last step: where in `gradient` R is read, from H mod 256 on */
     /* R, four times over, so that wherever one begins to read there is a copy that begins a vector there: a load across two lines of the
      * cache takes as long as three others. */
-    double gradient[4][NOISE_GRADIENTS + 5] __attribute__((aligned(64)));
+    double gradient[4 * NOISE_GRADIENT_ROW] __attribute__((aligned(64)));
     double gradient3[4098][4];                 /* G of generator 3, fourth component 0 */
     uint16_t permutation3[4098];               /* P */
     double random[NOISE_CELLS + 3];            /* the part of T that hashes reach, and one more for loads of four */
