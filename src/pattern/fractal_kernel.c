@@ -1,37 +1,17 @@
 /* fractal_kernel.c - the orbits of four points of a fractal pattern side by side, built once per instruction set with the same bits.
  *
  * One orbit is a chain of dependent operations: three more cost next to nothing. For normals, which ask four points, and functions. */
-#include <stdint.h>
 #include <string.h>
 
 #include "base/cpu.h"
 
-/* As wide as the processor's own vectors: gcc takes comparisons of wider ones apart. */
-#if defined(__AVX2__)
-#include <immintrin.h>
-enum { WIDTH = 4 };
-#else
-enum { WIDTH = 2 };
-#endif
-typedef double Lanes __attribute__((vector_size(8 * WIDTH)));
-typedef int64_t Mask __attribute__((vector_size(8 * WIDTH)));
+#define WIDTH_MOST 4
+#include "base/wide.h"
 
 #define REAL Lanes
 #include "pattern/fractal.h"
 
-#define INLINE static inline __attribute__((always_inline))
-
-INLINE Lanes all(double v) { return (Lanes){ 0 } + v; }
-INLINE Lanes chosen(Mask m, Lanes a, Lanes b) { return (Lanes)((m & (Mask)a) | (~m & (Mask)b)); }
-
-INLINE bool any(Mask m)
-{
-#if defined(__AVX2__)
-    return _mm256_movemask_pd((__m256d)m) != 0;
-#else
-    return (m[0] | m[1]) != 0;
-#endif
-}
+INLINE bool any(Mask m) { return bits(m) != 0; }
 
 /* As `orbit` in fractal.c has it for one; whole turns are left out when all that are not lost have come back at once. */
 INLINE void orbits(const Fractal *f, Number z, Number c, Lanes smallest2, Mask alive, Next *next, bool magnet, FractalEnds *out, int at)

@@ -7,31 +7,14 @@
 #include <string.h>
 
 #include "base/cpu.h"
+#include "base/wide.h"
 
-#ifdef __SSE2__
-#include <immintrin.h>
-#endif
-
-#define INLINE static inline __attribute__((always_inline))
-
-/* As wide as the processor's own vectors: gcc takes comparisons of wider ones apart. */
-#if defined(__AVX512F__)
-enum { WIDTH = 8 };
-#elif defined(__AVX2__)
-enum { WIDTH = 4 };
-#else
-enum { WIDTH = 2 };
-#endif
-typedef double Lanes __attribute__((vector_size(8 * WIDTH)));
-typedef int64_t Mask __attribute__((vector_size(8 * WIDTH)));
 typedef double LanesInMemory __attribute__((vector_size(8 * WIDTH), aligned(8), may_alias));
 
 enum { ALL = (1 << WIDTH) - 1 };
 
-INLINE Lanes all(double v) { return (Lanes){ 0 } + v; }
 INLINE Lanes load(const double *from) { return *(const LanesInMemory *)from; }
 INLINE void store(double *to, Lanes a) { *(LanesInMemory *)to = a; }
-INLINE Lanes chosen(Mask m, Lanes a, Lanes b) { return (Lanes)((m & (Mask)a) | (~m & (Mask)b)); }
 INLINE Lanes lesser(Lanes a, Lanes b) { return chosen(a < b, a, b); }
 INLINE Lanes greater(Lanes a, Lanes b) { return chosen(a > b, a, b); }
 
@@ -41,20 +24,6 @@ INLINE Lanes root(Lanes a)
     for (int i = 0; i < WIDTH; i++)
         out[i] = __builtin_sqrt(a[i]);
     return out;
-}
-
-/* Bit i: lane i. */
-INLINE uint32_t bits(Mask m)
-{
-#if defined(__AVX512F__)
-    return _mm512_movepi64_mask((__m512i)m);
-#elif defined(__AVX2__)
-    return (uint32_t)_mm256_movemask_pd((__m256d)m);
-#elif defined(__SSE2__)
-    return (uint32_t)_mm_movemask_pd((__m128d)m);
-#else
-    return (uint32_t)(m[0] & 1) | (uint32_t)(m[1] & 2);
-#endif
 }
 
 typedef struct { Lanes x, y, z, t; } Points;   /* t: the fourth coordinate */
