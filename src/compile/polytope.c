@@ -3,6 +3,8 @@
  * Every corner lies on three planes, so all triples are tried: n^3 / 6 for at most 32 planes. */
 #include "compile/polytope.h"
 
+#include <string.h>
+
 /* A direction in which all half spaces go on, or nearly so, makes it endless. Nearly must mean much more than what makes three
  * planes count as having no common point, or a sharp corner would be overlooked. */
 static const double ENDLESS = 1e-6, PARALLEL = 1e-12;
@@ -70,18 +72,24 @@ Bounds polytope_box(const HalfSpace *h, uint32_t n)
  * hits and the tolerances of inside tests. */
 static const double LOOSE = 0x1p-28;
 
+enum { CORNERS = 4 + 6 + POLYTOPE_MAX };       /* four, and one for each cut */
+
 typedef struct Polygon {
     uint32_t n;
-    Vec3 corner[4 + 6 + POLYTOPE_MAX];         /* four, and one for each cut */
+    Vec3 corner[2 * CORNERS];                  /* a cut adds one, but for roundings, and never doubles them */
 } Polygon;
 
-/* What a half space leaves of it (Sutherland and Hodgman, Reentrant polygon clipping, 1974). */
+/* What a half space leaves of it (Sutherland and Hodgman, Reentrant polygon clipping, 1974); or more, which does no harm. */
 static void polygon_cut(Polygon *p, HalfSpace h)
 {
-    Polygon from = *p;
+    Vec3 from[CORNERS];
+    uint32_t n = p->n;
+    if (n > CORNERS)
+        return;
+    memcpy(from, p->corner, n * sizeof *from);
     p->n = 0;
-    for (uint32_t i = 0; i < from.n; i++) {
-        Vec3 a = from.corner[i], b = from.corner[(i + 1) % from.n];
+    for (uint32_t i = 0; i < n; i++) {
+        Vec3 a = from[i], b = from[(i + 1) % n];
         double out_a = dot(h.normal, a) - h.distance, out_b = dot(h.normal, b) - h.distance;
         if (out_a <= 0)
             p->corner[p->n++] = a;
