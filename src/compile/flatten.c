@@ -72,16 +72,11 @@ uint32_t build_texture(ShapeBuild *b, const Texture *texture, const Affine *plac
     return index;
 }
 
-static double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
-
 static double largest_finite(Vec3 v)
 {
     double most = 0;
     for (int axis = 0; axis < 3; axis++)
-        most = isfinite(vec3_at(v, axis)) ? larger(most, fabs(vec3_at(v, axis))) : most;
+        most = isfinite(vec3_at(v, axis)) ? greater(most, fabs(vec3_at(v, axis))) : most;
     return most;
 }
 
@@ -91,10 +86,10 @@ static Bounds padded(Bounds b)
 {
     static const double room = 0x1p-30;
     if (bounds_is_finite(b))
-        return bounds_grown(b, room * larger(max_abs(b.lo), max_abs(b.hi)));
+        return bounds_grown(b, room * greater(max_abs(b.lo), max_abs(b.hi)));
     if (isnan(b.lo.x + b.lo.y + b.lo.z) || isnan(b.hi.x + b.hi.y + b.hi.z))
         return bounds_everything();
-    return bounds_grown(b, room * larger(larger(largest_finite(b.lo), largest_finite(b.hi)), 1));
+    return bounds_grown(b, room * greater(greater(largest_finite(b.lo), largest_finite(b.hi)), 1));
 }
 
 static const Affine *kept_place(Compile *c, const Affine *place)

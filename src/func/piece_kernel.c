@@ -41,8 +41,6 @@ INLINE void put(Row *r, int l, Piece v)
     r->second[l] = v.second;
 }
 
-INLINE double lesser(double a, double b) { return a < b ? a : b; }
-INLINE double greater(double a, double b) { return a > b ? a : b; }
 INLINE double largest(Piece a) { return greater(fabs(a.lo), fabs(a.hi)); }
 
 /* NaN is as good as nothing. */

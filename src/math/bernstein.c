@@ -9,6 +9,8 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "math/vec.h"
+
 enum { DEPTH = 44 };
 
 static const double choose[BERNSTEIN_MAX + 1][BERNSTEIN_MAX + 1] = {
@@ -75,13 +77,12 @@ typedef struct Search {
     int found;
 } Search;
 
-static double larger(double a, double b) { return a > b ? a : b; }
 
 static double largest_of(const double *b, int n)
 {
     double largest = 0;
     for (int i = 0; i <= n; i++)
-        largest = larger(largest, fabs(b[i]));
+        largest = greater(largest, fabs(b[i]));
     return largest;
 }
 

@@ -18,6 +18,8 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "math/vec.h"
+
 enum { MAX = ROOTS_MAX_DEGREE, DEPTH = 56, BUDGET = 4096 };
 
 typedef struct Search {
@@ -227,14 +229,9 @@ static bool small(const double *c, int n, const Small *s)
     return !climb.ended;
 }
 
-static double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
-
 static Tolerance precise(double lo, double hi)
 {
-    return (Tolerance){ DBL_EPSILON * larger(fabs(lo), fabs(hi)), DBL_EPSILON };
+    return (Tolerance){ DBL_EPSILON * greater(fabs(lo), fabs(hi)), DBL_EPSILON };
 }
 
 /* ---- higher degrees ---- */
@@ -377,7 +374,7 @@ static int reach_exponent(const double *c, int n)
     int top = ilogb(c[n]);
     for (int k = 0; k < n; k++)
         if (c[k] != 0)
-            most = larger(most, (double)(ilogb(c[k]) - top) / (n - k));
+            most = greater(most, (double)(ilogb(c[k]) - top) / (n - k));
     return isfinite(most) ? (int)floor(most) : 0;
 }
 

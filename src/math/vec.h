@@ -34,6 +34,10 @@ static inline Vec3 normalized(Vec3 a)
     return n > 0 ? scaled(a, 1 / n) : a;
 }
 
+/* fmin and fmax without their care for NaN, which costs a call. */
+static inline double lesser(double a, double b) { return a < b ? a : b; }
+static inline double greater(double a, double b) { return a > b ? a : b; }
+
 static inline double max_abs(Vec3 a)
 {
     double x = fabs(a.x), y = fabs(a.y), z = fabs(a.z), most = x > y ? x : y;  /* fmax would be a call */

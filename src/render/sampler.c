@@ -177,6 +177,12 @@ ALONE static bool blur_bent(Sampler *s, double x, double y, uint32_t m, Colour *
 /* Four rays. */
 typedef struct Aim { double o[3][FAN_RAYS], d[3][FAN_RAYS]; } Aim;
 
+/* a + u b + v c, as camera_blend has it. */
+static inline Vec3s blends(Vec3 a, Vec3 b, d4 u, Vec3 c, d4 v)
+{
+    return vec3s_add(vec3s_add(vec3s_set(a), vec3s_scaled(vec3s_set(b), u)), vec3s_scaled(vec3s_set(c), v));
+}
+
 /* As normalized() has it. */
 static inline Vec3s unit_vectors(Vec3s d)
 {
@@ -213,7 +219,7 @@ static void blur_aim(const Sampling *all, double x, double y, int seed, uint32_t
     d4 half = d4_set(0.5);
     d4 u = d4_sub(d4_div(d4_add(four_at(px), half), d4_set(all->camera.width)), half);
     d4 v = d4_sub(half, d4_div(d4_add(four_at(py), half), d4_set(all->camera.height)));
-    Vec3s d = vec3s_add(vec3s_add(vec3s_set(def->direction), vec3s_scaled(vec3s_set(def->right), u)), vec3s_scaled(vec3s_set(def->up), v));
+    Vec3s d = blends(def->direction, def->right, u, def->up, v);
     Vec3s e = vec3s_sub(vec3s_scaled(vec3s_set(all->across), four_at(across)), vec3s_scaled(vec3s_set(all->down), four_at(down)));
     Vec3s o = vec3s_scaled(vec3s_add(vec3s_set(def->location), e), d4_set(all->world->unit));
     d = unit_vectors(vec3s_sub(vec3s_scaled(d, d4_set(all->focus)), e));
@@ -307,12 +313,6 @@ Colour sampler_colour(Sampler *s, double x, double y)
 
 /* ---- rows ---- */
 
-/* a + u b + v c, as camera_blend has it. */
-static inline Vec3s blends(Vec3 a, Vec3 b, d4 u, Vec3 c, double v)
-{
-    return vec3s_add(vec3s_add(vec3s_set(a), vec3s_scaled(vec3s_set(b), u)), vec3s_set(scaled(c, v)));
-}
-
 void sampler_row(Sampler *s, double x, double y, int n)
 {
     const Sampling *all = s->sampling;
@@ -322,9 +322,9 @@ void sampler_row(Sampler *s, double x, double y, int n)
     s->row_y = y;
     if (!all->pinhole && !all->parallel)
         return;
-    double v = camera_place(camera, x, y).v;
+    d4 v = d4_set(camera_place(camera, x, y).v);
     for (int i = 0; i < n; i += 4) {
-        d4 at = d4_add(d4_load((const double[]){ 0.5, 1.5, 2.5, 3.5 }), d4_set(x + i));
+        d4 at = d4_add(d4_of(0.5, 1.5, 2.5, 3.5), d4_set(x + i));
         d4 u = d4_sub(d4_div(at, d4_set(camera->width)), d4_set(0.5));
         Vec3s differ = all->pinhole ? unit_vectors(blends(def->direction, def->right, u, def->up, v))
                                     : vec3s_scaled(blends(def->location, def->right, u, def->up, v), d4_set(all->world->unit));

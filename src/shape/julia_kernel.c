@@ -15,8 +15,8 @@ enum { ALL = (1 << WIDTH) - 1 };
 
 INLINE Lanes load(const double *from) { return *(const LanesInMemory *)from; }
 INLINE void store(double *to, Lanes a) { *(LanesInMemory *)to = a; }
-INLINE Lanes lesser(Lanes a, Lanes b) { return chosen(a < b, a, b); }
-INLINE Lanes greater(Lanes a, Lanes b) { return chosen(a > b, a, b); }
+INLINE Lanes least_of(Lanes a, Lanes b) { return chosen(a < b, a, b); }
+INLINE Lanes most_of(Lanes a, Lanes b) { return chosen(a > b, a, b); }
 
 INLINE Lanes root(Lanes a)
 {
@@ -138,7 +138,7 @@ INLINE JuliaRun quaternion_ahead(const JuliaSet *j, Points p, bool cube)
         steps = chosen(alive, all(k), steps);
         p = quaternion_next(j->c, cube, p);
     }
-    Lanes most = lesser(norm / e, 1 + norm / (e * e));
+    Lanes most = least_of(norm / e, 1 + norm / (e * e));
     uint32_t far = ~(bits(most <= tolerance * j->step * root(product) * scale) | left) & ALL & ~1u;
     for (; far != 0; far &= far - 1) {
         int i = __builtin_ctz(far);
@@ -357,7 +357,7 @@ INLINE uint32_t square_may_hold(const JuliaSet *j, Points start, Lanes r, double
     Mask alive = (Mask)all(0) == 0, wide = ~alive;
     for (int k = 0; k < j->n && k < ENOUGH && bits(alive & ~wide) != 0; k++) {
         Lanes a = root(p.ar * p.ar + p.ai * p.ai), b = root(p.br * p.br + p.bi * p.bi);
-        Lanes least_a = greater(a - ra, all(0)), least_b = greater(b - rb, all(0));
+        Lanes least_a = most_of(a - ra, all(0)), least_b = most_of(b - rb, all(0));
         alive &= wide | ~(0.5 * (least_a * least_a + least_b * least_b) > limit * limit);
         ra = grown(a, ra, false);
         rb = grown(b, rb, false);

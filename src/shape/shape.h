@@ -15,10 +15,6 @@ static inline double shape_unit(const ShapeBuild *b, double size)
     return relative > 0x1p-40 && relative < 0x1p40 ? 1 / b->unit : size > 0 ? build_unit(size) : 1 / b->unit;
 }
 
-/* fmin and fmax without their care for NaN, which costs a call. */
-static inline double lesser(double a, double b) { return a < b ? a : b; }
-static inline double greater(double a, double b) { return a > b ? a : b; }
-
 static inline Vec3 shape_min(Vec3 a, Vec3 b) { return vec3(fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z)); }
 static inline Vec3 shape_max(Vec3 a, Vec3 b) { return vec3(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z)); }
 
