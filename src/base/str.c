@@ -47,15 +47,6 @@ int str_compare(Str a, Str b)
     return order ? order : (a.n > b.n) - (a.n < b.n);
 }
 
-/* FNV-1a, 32 bits (Fowler, Noll, Vo). */
-uint32_t str_hash(Str a)
-{
-    uint32_t h = 2166136261u;
-    for (uint32_t i = 0; i < a.n; i++)
-        h = (h ^ (unsigned char)a.data[i]) * 16777619u;
-    return h;
-}
-
 Str str_concat(Arena *a, Str left, Str right)
 {
     char *p = arena_alloc(a, (size_t)left.n + right.n + 1);

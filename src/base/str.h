@@ -20,7 +20,6 @@ bool str_is(Str a, const char *text);
 bool str_equal_nocase(Str a, Str b);                       /* ASCII letters only */
 bool str_ends_with(Str a, const char *tail);
 int str_compare(Str a, Str b);                             /* as memcmp, then by length */
-uint32_t str_hash(Str a);
 Str str_copy(Arena *a, Str s);                             /* the copy is followed by a zero byte */
 Str str_concat(Arena *a, Str left, Str right);             /* followed by a zero byte */
 const char *str_c(Arena *a, Str s);                        /* a copy ended by a zero byte */

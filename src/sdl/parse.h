@@ -20,7 +20,6 @@ enum {                                         /* beyond the keywords */
 };
 
 Arena *parse_arena(Parser *p);                 /* the scene's: lives until compile has run */
-const Registry *parse_registry(const Parser *p);
 Diag *parse_diag(Parser *p);
 Loc parse_loc(Parser *p);                      /* of the next token */
 int parse_version(const Parser *p);            /* language version * 100 */

@@ -5,7 +5,6 @@
 #include "sdl/parser.h"
 
 Arena *parse_arena(Parser *p) { return p->arena; }
-const Registry *parse_registry(const Parser *p) { return p->host->registry; }
 Diag *parse_diag(Parser *p) { return p->diag; }
 int parse_version(const Parser *p) { return p->version; }
 
